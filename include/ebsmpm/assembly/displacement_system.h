@@ -1,0 +1,288 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_assembly_displacement_system_h
+#define ebsmpm_assembly_displacement_system_h
+
+#include <ebsmpm/assembly/point_groups.h>
+#include <ebsmpm/assembly/point_state.h>
+#include <ebsmpm/lac/system_matrix.h>
+#include <ebsmpm/lac/types.h>
+#include <ebsmpm/materials/degradation.h>
+#include <ebsmpm/materials/material.h>
+
+#include <deal.II/base/partitioner.h>
+#include <deal.II/base/tensor_function.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace EBSMPM
+{
+  /**
+   * The equation for the displacement increment of a load step: residual,
+   * consistent tangent, and what is computed from its solution.
+   *
+   * The unknown is the increment $\Delta\mathbf u$ from the configuration
+   * $\mathbf x_n$ at the start of the step, on which all integrals are written.
+   * With $\mathbf F = (\mathbf I+\nabla_n\Delta\mathbf u)\mathbf F_n$ and
+   * $\mathbf w=\mathbf u_n+\Delta\mathbf u-\bar{\mathbf u}$ (zero in components
+   * that are not prescribed), the residual is
+   * @f[
+   *   R(\delta\mathbf u) =
+   *     \sum_p V_0\, (\mathbf P\mathbf F_n^T):\nabla_n\delta\mathbf u
+   *   + \sum_b A_0\, \bigl[ \beta\, \mathbf w\cdot\delta\mathbf u
+   *     - \delta\mathbf u\cdot\mathbf P\mathbf N
+   *     - \mathbf w\cdot(\mathbf A:\nabla_X\delta\mathbf u)\mathbf N \bigr],
+   * @f]
+   * (equation (6) of Sugai et al.; method, sections 1 and 3), and the tangent
+   * its exact derivative, including that of $\mathbf A$ in the last term. The
+   * tangent is symmetric.
+   *
+   * Each group of points (see PointGroups) makes one dense matrix, as a single
+   * product $\mathbf G^T(\mathbf c\,\mathbf G)$ of the gradients of all
+   * functions at all points of the group; only the upper half of the pairs of
+   * components is computed. Constraints are part of the groups.
+   *
+   * @code
+   * DisplacementSystem<dim> system(material, degradation, beta);
+   * system.reinit(points, boundary_points, space, constraints, {}, {});
+   * LA::FieldVector increment = system.make_vector(), residual = increment;
+   * system.assemble_tangent(state, boundary, increment, residual);
+   * solver.solve(system.matrix(), ...);
+   * @endcode
+   *
+   * All functions that assemble are collective and leave ghost entries of the
+   * residual zero. Nothing is allocated in the loop over points.
+   */
+  template <int dim>
+  class DisplacementSystem
+  {
+  public:
+    using Pattern = typename PointGroups<dim>::Pattern;
+
+    /** Energies of the body; sums over all processes. */
+    struct Energies
+    {
+      /** Stored energy, $\sum_p V_0\Psi^e$. */
+      double elastic = 0.;
+
+      /**
+       * Energy of the boundary terms, $\sum_b A_0(\frac\beta2|\mathbf w|^2 -
+       * \mathbf w\cdot\mathbf P\mathbf N)$.
+       */
+      double penalty = 0.;
+    };
+
+    /**
+     * Constructor. The objects given must live as long as this one.
+     *
+     * @param material the elastic energy
+     * @param degradation the function $g(d)$
+     * @param penalty the factor $\beta$, stress per length
+     */
+    DisplacementSystem(const Material<dim> &material,
+                       const Degradation &  degradation,
+                       const double         penalty);
+
+    /**
+     * Prepare for a load step, or for a new space within it. The points must
+     * not be sorted or removed while this object is in use. Return whether the
+     * matrix has a new structure. Collective.
+     *
+     * @param points, @p boundary_points where the points are
+     * @param space, @p constraints the functions
+     * @param patterns, @p boundary_patterns which of them the points read, see
+     *   PointGroups; may be empty
+     */
+    bool
+    reinit(const CellPoints<dim> &          points,
+           const CellPoints<dim> &          boundary_points,
+           const SplineSpace<dim> &         space,
+           const AffineConstraints<double> &constraints,
+           const std::vector<Pattern> &     patterns,
+           const std::vector<Pattern> &     boundary_patterns);
+
+    /** Return a zero vector of the right distribution. */
+    LA::FieldVector
+    make_vector() const;
+
+    /** Compute the residual. The ghost entries of @p increment are updated. */
+    void
+    assemble_residual(const MaterialState<dim> &state,
+                      const BoundaryState<dim> &boundary,
+                      const LA::FieldVector &   increment,
+                      LA::FieldVector &         residual) const;
+
+    /** Compute the residual and the tangent matrix. */
+    void
+    assemble_tangent(const MaterialState<dim> &state,
+                     const BoundaryState<dim> &boundary,
+                     const LA::FieldVector &   increment,
+                     LA::FieldVector &         residual);
+
+    /**
+     * Subtract the virtual work of a body force per reference volume, given as
+     * a function of the position at the start of the step.
+     */
+    void
+    add_body_force(const MaterialState<dim> &         state,
+                   const TensorFunction<1, dim> &     force,
+                   LA::FieldVector &                  residual) const;
+
+    /** The tangent of the last call of assemble_tangent(). */
+    const LA::SparseMatrix &
+    matrix() const;
+
+    /**
+     * Compute $\Psi_0^+$ at the material points, which drives the damage.
+     */
+    void
+    driving_energy(const MaterialState<dim> &state,
+                   const LA::FieldVector &   increment,
+                   std::vector<double> &     psi_degraded) const;
+
+    /** Compute the energies of the body. Collective. */
+    Energies
+    energies(const MaterialState<dim> &state,
+             const BoundaryState<dim> &boundary,
+             const LA::FieldVector &   increment) const;
+
+    /**
+     * Compute the resultants of the consistent flux, $\sum_b A_0(\mathbf
+     * P\mathbf N-\beta\mathbf w)$, for each boundary id that any process has
+     * points with, in the components that are prescribed. Collective.
+     */
+    std::map<types::boundary_id, Tensor<1, dim>>
+    reactions(const MaterialState<dim> &            state,
+              const BoundaryState<dim> &            boundary,
+              const LA::FieldVector &               increment,
+              const std::vector<types::boundary_id> &ids) const;
+
+    /**
+     * The increments of displacement and deformation at the material points,
+     * or at the boundary points: $\Delta\mathbf u$ and $\mathbf F_{n+1}$.
+     */
+    struct Update
+    {
+      std::vector<Tensor<1, dim>> displacement_increment;
+      std::vector<Tensor<2, dim>> F;
+    };
+
+    /** Compute what the material points are to become. */
+    Update
+    update_points(const MaterialState<dim> &state,
+                  const LA::FieldVector &   increment) const;
+
+    /** Compute what the boundary points are to become. */
+    Update
+    update_points(const BoundaryState<dim> &boundary,
+                  const LA::FieldVector &   increment) const;
+
+    /**
+     * The shear driving the damage at boundary points, $\mathbf w\cdot\mathbf
+     * P^+\mathbf N$, for the Nitsche term of the damage equation.
+     */
+    void
+    boundary_driving(const BoundaryState<dim> &boundary,
+                     const LA::FieldVector &   increment,
+                     std::vector<double> &     driving) const;
+
+    /** The distribution of the unknowns. */
+    const std::shared_ptr<const Utilities::MPI::Partitioner> &
+    partitioner() const;
+
+    /** The space of the displacement. */
+    const SplineSpace<dim> &
+    space() const;
+
+    /** The groups of material points. */
+    const PointGroups<dim> &
+    groups() const;
+
+    /** The penalty factor $\beta$. */
+    double
+    penalty() const;
+
+  private:
+    /** What the loop over the groups is to compute. */
+    enum class Task
+    {
+      residual,
+      tangent
+    };
+
+    /** Arrays of the loop over the groups, allocated once. */
+    struct Scratch
+    {
+      std::vector<Tensor<1, dim>> coefficients;
+      std::vector<double>         B;
+      std::vector<double>         G;
+      std::vector<double>         CG;
+      std::vector<double>         product;
+      std::vector<Tensor<1, dim>> residual;
+      std::vector<double>         matrix;
+      std::vector<double>         pair;
+      std::vector<double>         half;
+    };
+
+    void
+    assemble(const Task                task,
+             const MaterialState<dim> &state,
+             const BoundaryState<dim> &boundary,
+             const LA::FieldVector &   increment,
+             LA::FieldVector &         residual,
+             SystemMatrix *            matrix) const;
+
+    /** Add one group of material points to scratch.residual and .matrix. */
+    void
+    material_group(const Task                              task,
+                   const typename PointGroups<dim>::Group &group,
+                   const MaterialState<dim> &              state) const;
+
+    /** Add one group of boundary points to scratch.residual and .matrix. */
+    void
+    boundary_group(const Task                              task,
+                   const typename PointGroups<dim>::Group &group,
+                   const BoundaryState<dim> &              boundary) const;
+
+    /** Resolve the constraints of a group and add it to the global objects. */
+    void
+    distribute(const Task                              task,
+               const PointGroups<dim> &                groups,
+               const typename PointGroups<dim>::Group &group,
+               const unsigned int                      list,
+               LA::FieldVector &                       residual,
+               SystemMatrix *                          matrix) const;
+
+    /** One over the edge lengths of a cell. */
+    Tensor<1, dim>
+    inverse_extents(const CellPoints<dim> &points, const unsigned int cell) const;
+
+    const Material<dim> &material;
+    const Degradation &  degradation;
+    const double         beta;
+
+    const CellPoints<dim> * points          = nullptr;
+    const CellPoints<dim> * boundary_points = nullptr;
+    const SplineSpace<dim> *spline_space    = nullptr;
+
+    PointGroups<dim> material_groups;
+    PointGroups<dim> boundary_groups;
+
+    std::shared_ptr<const Utilities::MPI::Partitioner> functions;
+    std::shared_ptr<const Utilities::MPI::Partitioner> unknowns;
+
+    SystemMatrix    tangent;
+    mutable Scratch scratch;
+  };
+} // namespace EBSMPM
+
+#endif

@@ -1,0 +1,279 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_fracture_crack_partition_h
+#define ebsmpm_fracture_crack_partition_h
+
+#include <ebsmpm/assembly/point_groups.h>
+#include <ebsmpm/particles/cell_points.h>
+#include <ebsmpm/splines/spline_space.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace EBSMPM
+{
+  /**
+   * What points remember of a crack next to them, in plain arrays with the
+   * numbering of CellPoints. Within a load step these are trial values; they
+   * are written to the points when the step is accepted.
+   */
+  template <int dim>
+  struct CrackLabels
+  {
+    /** Side vector: unit vector towards the crack, or zero. */
+    std::vector<Tensor<1, dim>> side;
+
+    /** Whether the side vector is settled. */
+    std::vector<char> frozen;
+
+    /** The largest damage so far (one on an initial slit). */
+    std::vector<double> peak_damage;
+
+    /** Give all arrays the size @p n. */
+    void
+    resize(const unsigned int n)
+    {
+      side.resize(n);
+      frozen.resize(n);
+      peak_damage.resize(n);
+    }
+  };
+
+
+
+  /**
+   * Turn a diffusive crack into a discrete one: decide which functions are read
+   * differently from the two sides of the damage ridge, and which points are on
+   * which side.
+   *
+   * The rule of Sugai et al., section 3.(4): a function $J$ whose damage
+   * gradient opposes that of a point, $\nabla d_J\cdot\nabla d_p<0$, and whose
+   * damage exceeds $d_\text{cr}$, lies on the other side of the crack. The
+   * point then reads, instead of $c_J$, an extrapolation from functions on its
+   * own side: the twin of $J$. The number of unknowns does not grow.
+   *
+   * @code
+   *      m_p |        points above the ridge: side vector down
+   *          v    . . . . . . . .
+   *   ===================-------------->   ridge of the damage
+   *          ^    . . . . . . . .  tip
+   *      m_p |        points below: side vector up
+   * @endcode
+   *
+   * Since the gradient vanishes on the ridge and is noise where $d\approx 1$,
+   * side vectors come from the shape of the ridge (method, section 6):
+   *
+   * 1. The damage of the points is smoothed by two passes from points to
+   *    functions and back, weighted by volume.
+   * 2. At each function, the ridge is where the smoothed damage is more than
+   *    75 % of its maximum in a ball of radius AdditionalData::ridge_radius
+   *    cells. Its centroid $\mathbf c$ and its axis of least variance
+   *    $\mathbf n$ describe the crack there.
+   * 3. A point takes both from the function next to it and gets the side vector
+   *    $\mathbf m_p=\operatorname{sign}((\mathbf c-\mathbf x_p)\cdot\mathbf n)
+   *    \,\mathbf n$. Ties go to a fixed side. The vector is settled once the
+   *    ridge is clear, i.e., the ratio of the two smallest principal variances
+   *    below AdditionalData::frozen_ratio, and the point reads a separable
+   *    function.
+   * 4. The side vector $\mathbf m_I$ of a function is the mean of its points',
+   *    weighted by volume: the side with more material owns it.
+   * 5. A function is separable if a damage above $d_\text{cr}$ is met between
+   *    $-h$ and $+2h$ from it along $\mathbf m_I$ (for a function outside of the
+   *    body, anywhere in its support). This is decided per function, not per cell, so that the field of each side stays $C^{p-1}$
+   *    and the opening closes smoothly at the tip.
+   * 6. Closure: a function on a ridge with $d>0.5$ between two separable ones,
+   *    or between one and a free boundary, within three cells, is separable as
+   *    well. Single functions left over would carry load for ever.
+   * 7. A point with $\mathbf m_p\cdot\mathbf m_I<0$ reads the twin of the
+   *    separable function $I$.
+   *
+   * An initial slit is the same with labels given at the start.
+   *
+   * Cells without noteworthy damage or labels take no part, so that the cost is
+   * proportional to the length of the crack. All functions are collective.
+   * Decisions are based on sums that are the same on all processes, with
+   * margins, and do not depend on the number of processes.
+   */
+  template <int dim>
+  class CrackPartition
+  {
+  public:
+    using Pattern = typename PointGroups<dim>::Pattern;
+    using Key     = FunctionKey<dim>;
+
+    /** Parameters of the procedure. Lengths are in cells. */
+    struct AdditionalData
+    {
+      /** Constructor, with the defaults. */
+      AdditionalData(const double damage_threshold = 0.9,
+                     const double closure_damage   = 0.5,
+                     const double frozen_ratio     = 0.2,
+                     const int    ridge_radius     = 4)
+        : damage_threshold(damage_threshold)
+        , closure_damage(closure_damage)
+        , frozen_ratio(frozen_ratio)
+        , ridge_radius(ridge_radius)
+      {}
+
+      /** The damage $d_\text{cr}$ beyond which functions are separable. */
+      double damage_threshold;
+
+      /** The damage that makes a ridge for the closure. */
+      double closure_damage;
+
+      /** Ratio of principal variances below which the ridge is clear. */
+      double frozen_ratio;
+
+      /** Radius of the ball in which the shape of the ridge is determined. */
+      int ridge_radius;
+
+      /**
+       * Whether cracks grow. Otherwise, only what was labelled at the start (a
+       * slit) is discrete, and damage is no reason for more.
+       */
+      bool grow = true;
+    };
+
+    /**
+     * Constructor. @p space must have been numbered, without twins, from the
+     * same points: it tells which functions exist.
+     */
+    CrackPartition(const SplineSpace<dim> &space,
+                   const AdditionalData &  data = AdditionalData());
+
+    /**
+     * Determine the partition anew. Return whether any pattern on any process
+     * differs from before.
+     *
+     * @param points, @p boundary_points where the points are
+     * @param volumes current volumes of the material points
+     * @param damage current damage of the material points, in $[0,1]$
+     * @param labels, @p boundary_labels are updated: side vectors that are not
+     *   frozen, and the largest damage
+     */
+    bool
+    update(const CellPoints<dim> &    points,
+           const CellPoints<dim> &    boundary_points,
+           const std::vector<double> &volumes,
+           const std::vector<double> &damage,
+           CrackLabels<dim> &         labels,
+           CrackLabels<dim> &         boundary_labels);
+
+    /** Which functions the material points read as twins. */
+    const std::vector<Pattern> &
+    patterns() const;
+
+    /** Which functions the boundary points read as twins. */
+    const std::vector<Pattern> &
+    boundary_patterns() const;
+
+    /** Tell the functions in @p supports their side vectors. */
+    void
+    add_sides(typename SplineSpace<dim>::SupportTable &supports) const;
+
+  private:
+    /** What becomes known about a function, step by step. */
+    struct FunctionData
+    {
+      /** Smoothed damage. */
+      double damage = 0.;
+
+      /** Damage met along the side vector. */
+      double damage_ahead = 0.;
+
+      /** Maximum of the smoothed damage around. */
+      double ridge_damage = 0.;
+
+      /** Ratio of the two smallest principal variances of the ridge. */
+      double variance_ratio = 1.;
+
+      /** Normal and centroid of the ridge, and the function's side vector. */
+      std::array<double, dim> normal{};
+      std::array<double, dim> centroid{};
+      std::array<double, dim> side{};
+
+      /** Whether both sides read the function differently. */
+      bool separable = false;
+
+      /** The lowest rank with points in the support. */
+      unsigned int owner = 0;
+    };
+
+    /** A sum over the points of a function's support. */
+    struct Sums
+    {
+      double                  volume = 0.;
+      double                  value  = 0.;
+      std::array<double, dim> vector{};
+      unsigned int            owner = 0;
+    };
+
+    using DataTable = typename FunctionDirectory<dim, FunctionData>::Table;
+
+    /** Find the cells that take part, and the functions they see. */
+    void
+    select_cells(const CellPoints<dim> &    points,
+                 const std::vector<double> &damage,
+                 const CrackLabels<dim> &   labels);
+
+    /** Steps 1 to 6; they fill #table. */
+    void
+    smooth_damage(const CellPoints<dim> &    points,
+                  const std::vector<double> &volumes,
+                  const std::vector<double> &damage);
+    void
+    find_ridge();
+    void
+    label_points(const CellPoints<dim> &points, CrackLabels<dim> &labels) const;
+    void
+    find_sides(const CellPoints<dim> &    points,
+               const std::vector<double> &volumes,
+               const CrackLabels<dim> &   labels);
+    void
+    find_separable(const CellPoints<dim> & points,
+                   const CrackLabels<dim> &labels);
+    void
+    close_gaps();
+
+    /** Step 7, and freezing; returns whether a pattern changed. */
+    bool
+    make_patterns(const CellPoints<dim> &points,
+                  CrackLabels<dim> &     labels,
+                  std::vector<Pattern> & patterns) const;
+
+    /**
+     * Return what the owners know about all functions around those that this
+     * process sees, within @p radius lattice steps. Collective.
+     */
+    DataTable
+    surroundings(const std::vector<Key> &centers, const int radius) const;
+
+    /** The function whose Greville point is next to a point of a cell. */
+    Key
+    nearest_function(const typename CellPoints<dim>::Cell &cell,
+                     const Point<dim> &                    unit_point) const;
+
+    const SplineSpace<dim> *space;
+    const AdditionalData    data;
+    const unsigned int      my_rank;
+
+    /** Numbers of the cells that take part. */
+    std::vector<unsigned int> active_cells;
+
+    /** The functions that these cells see. */
+    DataTable table;
+
+    std::vector<Pattern> point_patterns;
+    std::vector<Pattern> boundary_point_patterns;
+  };
+} // namespace EBSMPM
+
+#endif

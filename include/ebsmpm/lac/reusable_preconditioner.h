@@ -1,0 +1,76 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_lac_reusable_preconditioner_h
+#define ebsmpm_lac_reusable_preconditioner_h
+
+#include <ebsmpm/base/config.h>
+
+#include <ebsmpm/lac/types.h>
+
+#include <string>
+
+namespace EBSMPM
+{
+  /**
+   * A factorisation of a matrix, or an approximation of its inverse, that
+   * outlives the matrix it was computed from: the part of LinearSolver that
+   * differs from method to method. MumpsFactorization, KluFactorization and
+   * AmgHierarchy implement it.
+   *
+   * An object takes from the matrix what it needs; none keeps a reference to
+   * it. Each is free to remember what depends on the sparsity pattern only, and
+   * must notice by itself when that has changed.
+   *
+   * A failure raises ExcSolverFailure on all processes.
+   */
+  class ReusablePreconditioner
+  {
+  public:
+    virtual ~ReusablePreconditioner() = default;
+
+    /**
+     * Compute from the matrix @p A. Collective.
+     */
+    virtual void
+    initialize(const LA::SparseMatrix &A) = 0;
+
+    /**
+     * Apply to a vector, both of which are distributed like the rows of the
+     * matrix. Collective.
+     */
+    virtual void
+    vmult(LA::Vector &dst, const LA::Vector &src) const = 0;
+
+    /**
+     * Return whether initialize() has found negative eigenvalues. A method that
+     * cannot tell says no.
+     */
+    virtual bool
+    is_indefinite() const;
+
+    /**
+     * Return the name of the method, for messages.
+     */
+    virtual std::string
+    name() const = 0;
+  };
+
+
+
+  // ------------------------- inline functions -------------------------
+
+  inline bool
+  ReusablePreconditioner::is_indefinite() const
+  {
+    return false;
+  }
+} // namespace EBSMPM
+
+#endif

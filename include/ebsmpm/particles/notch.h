@@ -1,0 +1,119 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_particles_notch_h
+#define ebsmpm_particles_notch_h
+
+#include <ebsmpm/base/config.h>
+
+#include <ebsmpm/particles/boundary_points.h>
+#include <ebsmpm/particles/material_points.h>
+#include <ebsmpm/particles/shape.h>
+
+#include <memory>
+
+namespace EBSMPM
+{
+  /**
+   * Initial cracks. There are three ways to give a body one:
+   * <ol>
+   * <li>A gap: do not fill it with points in the first place. The shape of the
+   * body is a difference,
+   * <tt>box(0,0, 1,1) - box(0,0.49, 0.5,0.51)</tt>. Quadratic splines bridge a
+   * gap of one or two cells; it takes three, or a slit in addition, to separate
+   * its sides.</li>
+   * <li>A slit: the body is complete, but the points next to a plane know from
+   * the start to which side of it they belong, see label_slit(). This is the
+   * mechanism of growing cracks.</li>
+   * <li>Damage: a large history in a band, see initial_history().</li>
+   * </ol>
+   */
+  namespace Notch
+  {
+    /**
+     * A slit: the part of a plane (line in 2d) that is open.
+     *
+     * @code
+     *        ________________________________
+     *   w   |  side = -n             |  ahead|
+     *   d   |########################|       |      ^ n
+     *   ----+========================+-------+---   |   plane
+     *   d   |########################|       |
+     *   w   |  side = +n  ___________|_______|
+     *           open                   w
+     * @endcode
+     * Points within @p label_width (w) of the plane get a side, also a bit
+     * ahead of the tip, where the crack will first look for it. Points within
+     * @p damage_width (d) of the open part (#) have a peak damage of 1.
+     */
+    template <int dim>
+    struct Slit
+    {
+      /**
+       * A point on the plane.
+       */
+      Point<dim> point;
+
+      /**
+       * The normal of the plane, of any length.
+       */
+      Tensor<1, dim> normal;
+
+      /**
+       * Where the slit is open: a point of the plane is on it if it is in this
+       * body, for example a half space whose plane goes through the tip.
+       */
+      std::shared_ptr<const Shape<dim>> open_region;
+
+      /**
+       * How far from the plane points are labelled, and how far ahead of the
+       * tip. Four cells is a good choice.
+       */
+      double label_width;
+
+      /**
+       * How far from the plane points count as broken. It should reach a
+       * cell or two, so that all functions next to the plane are separable.
+       */
+      double damage_width;
+    };
+
+
+
+    /**
+     * Give the points next to a slit their labels: the side vector, which is
+     * the unit vector perpendicular to the plane and towards it; "frozen"; and
+     * the peak damage. A point on the plane (up to $10^{-10}$ label widths)
+     * counts as being on the side to which the normal points.
+     *
+     * Both kinds of points are to be in their reference positions.
+     */
+    template <int dim>
+    void
+    label_slit(const Slit<dim>     &slit,
+               MaterialPoints<dim> &points,
+               BoundaryPoints<dim> &boundary_points);
+
+
+
+    /**
+     * Set the history of all points in @p shape to @p value, except where it is
+     * larger already. In terms of the fracture energy and the length scale, the
+     * damage that belongs to a history H without gradients is
+     * $d = H/(H+G_c/(2l))$.
+     */
+    template <int dim>
+    void
+    initial_history(const Shape<dim>    &shape,
+                    const double         value,
+                    MaterialPoints<dim> &points);
+  } // namespace Notch
+} // namespace EBSMPM
+
+#endif

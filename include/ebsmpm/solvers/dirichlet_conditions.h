@@ -1,0 +1,70 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_solvers_dirichlet_conditions_h
+#define ebsmpm_solvers_dirichlet_conditions_h
+
+#include <ebsmpm/assembly/point_state.h>
+#include <ebsmpm/particles/cell_points.h>
+
+#include <deal.II/base/function_parser.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace EBSMPM
+{
+  /**
+   * Prescribed displacements on the boundary points, component by component, as
+   * functions of the position and the load.
+   *
+   * The values are given as text, one formula per boundary and component,
+   * @code
+   *   bottom.x = 0; bottom.y = 0; top.x = 0; top.y = u
+   * @endcode
+   * in the reference coordinates <tt>x, y(, z)</tt> and the load <tt>u</tt>.
+   * Components that are not mentioned are free of traction.
+   */
+  template <int dim>
+  class DirichletConditions
+  {
+  public:
+    /**
+     * Read the conditions.
+     *
+     * @param text as described above
+     * @param boundary_names the names of the boundaries; their position in the
+     *   list is the boundary id
+     *
+     * Raises ExcInput for a name that does not exist, or a formula that makes
+     * no sense.
+     */
+    DirichletConditions(const std::string &             text,
+                        const std::vector<std::string> &boundary_names);
+
+    /**
+     * Fill BoundaryState::prescribed and BoundaryState::constrained for the
+     * load @p load. Boundary ids and displacements must be there already.
+     */
+    void
+    apply(const double           load,
+          const CellPoints<dim> &boundary_points,
+          BoundaryState<dim> &   boundary) const;
+
+  private:
+    /** Formulas by boundary id and component; null if there is none. */
+    std::map<types::boundary_id,
+             std::array<std::unique_ptr<FunctionParser<dim>>, dim>>
+      formulas;
+  };
+} // namespace EBSMPM
+
+#endif

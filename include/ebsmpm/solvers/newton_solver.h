@@ -1,0 +1,125 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_solvers_newton_solver_h
+#define ebsmpm_solvers_newton_solver_h
+
+#include <ebsmpm/base/config.h>
+#include <ebsmpm/lac/linear_solver.h>
+#include <ebsmpm/lac/types.h>
+
+#include <functional>
+
+namespace EBSMPM
+{
+  /**
+   * Newton's method with a backtracking line search, for the displacement.
+   *
+   * The linear systems are solved inexactly, as far as it pays off: the
+   * relative tolerance follows the convergence of the residual (Eisenstat and
+   * Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2), so that the last
+   * steps are still quadratic. A trial step with a larger residual, or one that
+   * turns a point inside out, is halved.
+   *
+   * @code
+   * NewtonSolver newton(data);
+   * const auto report = newton.solve(problem, linear_solver, scale, x);
+   * @endcode
+   *
+   * Raises ExcSolverFailure if the iteration does not converge; @p x is then
+   * undefined. Collective.
+   */
+  class NewtonSolver
+  {
+  public:
+    /** Parameters. */
+    struct AdditionalData
+    {
+      /** Constructor, with the defaults. */
+      AdditionalData(const double       tolerance      = 1e-9,
+                     const unsigned int max_iterations = 25,
+                     const unsigned int max_bisections = 8);
+
+      /** Tolerance for the residual, relative to a scale given to solve(). */
+      double tolerance;
+
+      /** Iterations after which to give up. */
+      unsigned int max_iterations;
+
+      /** Number of times a trial step is halved. */
+      unsigned int max_bisections;
+    };
+
+    /** The problem to solve, $R(x)=0$. */
+    struct Problem
+    {
+      /** Compute the residual. May raise ExcSolverFailure. */
+      std::function<void(const LA::FieldVector &x, LA::FieldVector &residual)>
+        residual;
+
+      /** Compute the residual and the tangent. */
+      std::function<void(const LA::FieldVector &x, LA::FieldVector &residual)>
+        tangent;
+
+      /** The tangent. */
+      std::function<const LA::SparseMatrix &()> matrix;
+    };
+
+    /** What happened. */
+    struct Report
+    {
+      unsigned int iterations        = 0;
+      unsigned int linear_iterations = 0;
+      unsigned int refreshes         = 0;
+      unsigned int bisections        = 0;
+      bool         indefinite        = false;
+      double       residual          = 0.;
+
+      /** Norms of the residual, before each iteration and at the end. */
+      std::vector<double> residuals;
+    };
+
+    /** Constructor. */
+    explicit NewtonSolver(const AdditionalData &data = AdditionalData());
+
+    /**
+     * Solve. The iteration has converged when the norm of the residual is below
+     * <tt>tolerance*scale</tt>.
+     *
+     * @param problem the functions to call
+     * @param linear_solver for the tangents
+     * @param scale of the residual, for example the largest force so far
+     * @param tolerance the relative tolerance, if not that of the constructor
+     * @param x the initial guess, and the solution
+     */
+    Report
+    solve(const Problem &  problem,
+          LinearSolver &   linear_solver,
+          const double     scale,
+          const double     tolerance,
+          LA::FieldVector &x) const;
+
+  private:
+    const AdditionalData data;
+  };
+
+
+
+  /**
+   * Solve a linear system given in the vectors of the assembly.
+   */
+  LinearSolver::Report
+  solve_linear_system(LinearSolver &          solver,
+                      const LA::SparseMatrix &matrix,
+                      const LA::FieldVector & right_hand_side,
+                      const double            relative_tolerance,
+                      LA::FieldVector &       solution);
+} // namespace EBSMPM
+
+#endif

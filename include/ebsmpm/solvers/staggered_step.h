@@ -1,0 +1,307 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_solvers_staggered_step_h
+#define ebsmpm_solvers_staggered_step_h
+
+#include <ebsmpm/assembly/damage_system.h>
+#include <ebsmpm/assembly/displacement_system.h>
+#include <ebsmpm/fracture/crack_partition.h>
+#include <ebsmpm/lac/linear_solver.h>
+#include <ebsmpm/particles/boundary_points.h>
+#include <ebsmpm/particles/material_points.h>
+#include <ebsmpm/solvers/dirichlet_conditions.h>
+#include <ebsmpm/solvers/newton_solver.h>
+#include <ebsmpm/splines/extension.h>
+#include <ebsmpm/splines/spline_space.h>
+
+#include <deal.II/base/timer.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace EBSMPM
+{
+  /**
+   * One load step: solve for damage and displacement in turns, and move the
+   * points when the result is accepted.
+   *
+   * A step begins with the state on the points. From where these are follow the
+   * functions, standard or deficient, of the damage and of the displacement;
+   * then, in each pass of the staggered scheme,
+   *
+   * 1. the damage is solved for with the history field $\mathcal H$,
+   * 2. the crack partition is brought up to date, and with it the space of the
+   *    displacement,
+   * 3. the displacement is solved for by Newton's method,
+   * 4. $\mathcal H\leftarrow\max(\mathcal H_n,\Psi_0^+)$.
+   *
+   * The paper's algorithm (Miehe et al., 2010) is a single pass per step.
+   * Otherwise, passes are repeated until the damage of no point changes by more
+   * than AdditionalData::tolerance (alternate minimisation), with
+   * over-relaxation of the damage that is taken back when the changes grow.
+   *
+   * The points are not touched before accept(). A step that fails, which
+   * solve() reports by an exception of type ExcSolverFailure, therefore leaves
+   * nothing to restore: call solve() again with a smaller load.
+   *
+   * @code
+   * StaggeredStep<dim> step(points, boundary_points, material, degradation,
+   *                         Gc, l, beta, data);
+   * for (load : loads)
+   *   {
+   *     step.solve(conditions, load);
+   *     std::cout << step.reactions(ids) << std::endl;
+   *     step.accept();
+   *   }
+   * @endcode
+   */
+  template <int dim>
+  class StaggeredStep
+  {
+  public:
+    /** Parameters of the step. */
+    struct AdditionalData
+    {
+      /** Degree of the splines. */
+      unsigned int degree = 2;
+
+      /** Occupied fraction $\phi_\text{cr}$ below which functions are
+       * deficient. */
+      double extension_threshold = 0.1;
+
+      /** Whether there is a damage equation. */
+      bool damage = true;
+
+      /** Whether the damage equation has the boundary term. */
+      bool damage_boundary_term = false;
+
+      /** Number of passes; one is the algorithm of the paper. */
+      unsigned int max_passes = 1;
+
+      /** Change of the damage at which the passes have converged. */
+      double tolerance = 1e-3;
+
+      /** Largest factor of over-relaxation; one for none. */
+      double max_relaxation = 1.6;
+
+      /** Whether diffusive cracks become discrete. */
+      bool partition = false;
+
+      /** Passes after which the partition stays as it is. */
+      unsigned int max_partition_passes = 50;
+
+      /** Parameters of the partition. */
+      typename CrackPartition<dim>::AdditionalData partition_data;
+
+      /** Parameters of Newton's method. */
+      NewtonSolver::AdditionalData newton;
+
+      /** Tolerance of Newton's method while the passes have not converged. */
+      double intermediate_tolerance = 1e-5;
+
+      /** Parameters of the linear solvers. */
+      LinearSolver::AdditionalData displacement_solver;
+      LinearSolver::AdditionalData damage_solver;
+    };
+
+    /** How a step went. */
+    struct Report
+    {
+      unsigned int passes            = 0;
+      unsigned int newton_iterations = 0;
+      unsigned int linear_iterations = 0;
+      unsigned int refreshes         = 0;
+      unsigned int bisections        = 0;
+      unsigned int rebuilds          = 0;
+      bool         indefinite        = false;
+      double       damage_change     = 0.;
+      double       residual          = 0.;
+
+      /** Norms of the residual in the last Newton solve. */
+      std::vector<double> residuals;
+    };
+
+    /**
+     * Constructor. All objects must live as long as this one.
+     *
+     * @param points, @p boundary_points carry the state
+     * @param material, @p degradation the constitutive law
+     * @param fracture_energy, @p length_scale of the damage
+     * @param penalty the factor $\beta$ of Nitsche's method
+     * @param data the parameters
+     * @param timer may be null
+     */
+    StaggeredStep(MaterialPoints<dim> &points,
+                  BoundaryPoints<dim> &boundary_points,
+                  const Material<dim> &material,
+                  const Degradation &  degradation,
+                  const double         fracture_energy,
+                  const double         length_scale,
+                  const double         penalty,
+                  const AdditionalData &data,
+                  TimerOutput *         timer = nullptr);
+
+    /**
+     * Solve for the state under the load @p load. Starts from the accepted
+     * state, however often it is called. Collective.
+     *
+     * @param conditions the Dirichlet data
+     * @param load the argument of the conditions
+     * @param guess_factor ratio of this load increment to the last accepted
+     *   one, by which the last increment of displacement is extrapolated for
+     *   the initial guess; zero for none
+     */
+    Report
+    solve(const DirichletConditions<dim> &conditions,
+          const double                    load,
+          const double                    guess_factor = 0.);
+
+    /** Write the solution to the points and move them. Collective. */
+    void
+    accept();
+
+    /** The reactions of all boundaries, by boundary id. Collective. */
+    std::map<types::boundary_id, Tensor<1, dim>>
+    reactions() const;
+
+    /** Elastic and boundary energies. Collective. */
+    typename DisplacementSystem<dim>::Energies
+    energies() const;
+
+    /** The regularised area (2-D: length) of the crack. Collective. */
+    double
+    crack_area() const;
+
+    /** The space of the displacement. */
+    const SplineSpace<dim> &
+    displacement_space() const;
+
+    /** How the extension went. */
+    const ExtensionReport &
+    extension_report() const;
+
+    /** The system of the displacement, and its state. */
+    DisplacementSystem<dim> &
+    displacement_system();
+    const MaterialState<dim> &
+    material_state() const;
+    const BoundaryState<dim> &
+    boundary_state() const;
+    const LA::FieldVector &
+    increment() const;
+
+    /**
+     * The coefficients of the increment of displacement that a cell sees (in
+     * part 0), as GridWriter wants them: the components of a function one after
+     * the other; nothing for cells without points.
+     */
+    void
+    cell_increment(
+      const typename Triangulation<dim>::active_cell_iterator &cell,
+      std::vector<double> &                                    coefficients) const;
+
+    /** The same for the damage. */
+    void
+    cell_damage(const typename Triangulation<dim>::active_cell_iterator &cell,
+                std::vector<double> &coefficients) const;
+
+  private:
+    /** A field and what is needed to find its coefficients by key. */
+    struct Snapshot
+    {
+      typename SplineSpace<dim>::FunctionTable functions;
+      types::global_dof_index                  n_independent = 0;
+      LA::FieldVector                          field;
+    };
+
+    /** Number the points where they are, and collect their state. */
+    void
+    begin();
+
+    /** Build the space of the displacement for the current partition. */
+    void
+    build_displacement_space();
+
+    /** Keep what is needed to transfer a field to another space. */
+    static void
+    take_snapshot(const SplineSpace<dim> &space,
+                  const LA::FieldVector & field,
+                  Snapshot &              snapshot);
+
+    /** Give a field on a new space the coefficients of an old one. */
+    template <int n_components>
+    static void
+    transfer(const Snapshot &        snapshot,
+             const SplineSpace<dim> &space,
+             LA::FieldVector &       field);
+
+    /** What cell_increment() and cell_damage() have in common. */
+    template <int n_components>
+    static void
+    cell_coefficients(
+      const typename Triangulation<dim>::active_cell_iterator &cell,
+      const SplineSpace<dim> &                                 space,
+      const AffineConstraints<double> &                        constraints,
+      const LA::FieldVector &                                  field,
+      std::vector<double> &                                    coefficients);
+
+    /** Rigid motions, for algebraic multigrid. */
+    void
+    set_near_null_space();
+
+    /** One solve for the damage; returns the largest change at a point. */
+    double
+    solve_damage(const double relaxation, Report &report);
+
+    /** One solve for the displacement. */
+    void
+    solve_displacement(const double tolerance, Report &report);
+
+    MaterialPoints<dim> &     material_points;
+    BoundaryPoints<dim> &     boundary_material_points;
+    const Degradation &       degradation;
+    const AdditionalData      data;
+    std::unique_ptr<TimerOutput> own_timer;
+    TimerOutput *             timer;
+
+    CellPoints<dim>     points;
+    CellPoints<dim>     boundary_points;
+    MaterialState<dim>  state;
+    BoundaryState<dim>  boundary;
+    CrackLabels<dim>    labels;
+    CrackLabels<dim>    boundary_labels;
+    std::vector<double> current_volume;
+    std::vector<double> psi;
+
+    SplineSpace<dim>          u_space;
+    SplineSpace<dim>          d_space;
+    AffineConstraints<double> u_constraints;
+    AffineConstraints<double> d_constraints;
+    ExtensionReport           u_extension;
+
+    CrackPartition<dim>     partition;
+    DisplacementSystem<dim> u_system;
+    DamageSystem<dim>       d_system;
+    NewtonSolver            newton;
+    LinearSolver            u_solver;
+    LinearSolver            d_solver;
+
+    LA::FieldVector u_increment;
+    LA::FieldVector d_field;
+    Snapshot        last_increment;
+    bool            space_is_current = false;
+    double          largest_force    = 0.;
+
+    std::vector<types::boundary_id> boundary_ids;
+  };
+} // namespace EBSMPM
+
+#endif

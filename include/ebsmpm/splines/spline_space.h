@@ -1,0 +1,215 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_splines_spline_space_h
+#define ebsmpm_splines_spline_space_h
+
+#include <ebsmpm/splines/cartesian_lattice.h>
+#include <ebsmpm/splines/function_directory.h>
+#include <ebsmpm/splines/function_key.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/tensor.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <unordered_map>
+#include <vector>
+
+namespace EBSMPM
+{
+  /**
+   * The numbering of the B-splines on a Cartesian grid: which functions exist,
+   * which process owns them, and which indices a cell sees.
+   *
+   * This is what DoFHandler is for finite elements; a DoFHandler itself cannot
+   * number functions that live on several cells. It does not know which
+   * functions depend on which others: that is for make_extension_constraints()
+   * and the AffineConstraints object filled by it. See the page on notation in
+   * function_key.h for the words.
+   *
+   * Every process hands over the functions that its points see, with the share
+   * of the support that its points occupy,
+   * @f[
+   *   \phi_I = \frac{\sum_p B_I(\mathbf x_p) v_p}{\int B_I},
+   * @f]
+   * and reinit() adds the shares up, tells standard from deficient functions by
+   * $\phi_I>\phi_\text{cr}$, and numbers the independent ones
+   * $0,\ldots,n_\text{independent}-1$, rank by rank, and the dependent ones
+   * behind, rank by rank as well. Vectors and matrices need the independent
+   * range only. A function belongs to the lowest rank that sees it.
+   *
+   * @code
+   * SplineSpace<dim> space(triangulation, degree);
+   * SplineSpace<dim>::SupportTable supports;
+   * for (cell with points)
+   *   for (point in cell)
+   *     for (i < n_functions)
+   *       supports[space.cell_function(cell_index, level, i)].fraction +=
+   *         B[i] * volume / cell->measure();
+   * space.reinit(supports, 0.1);
+   *
+   * AffineConstraints<double> constraints;
+   * make_extension_constraints(space, constraints);
+   * @endcode
+   *
+   * The numbering does not depend on the order in which cells or points are
+   * visited, and the set of functions and their classes not on the number of
+   * processes. reinit() is collective; its cost is that of a few messages of
+   * the size of the table handed over.
+   */
+  template <int dim>
+  class SplineSpace
+  {
+  public:
+    using Key = FunctionKey<dim>;
+
+    /** What makes a function independent, or not. */
+    enum class FunctionClass : int
+    {
+      standard,
+      deficient,
+      twin
+    };
+
+    /** What the points of one process say about a function. */
+    struct Support
+    {
+      /** Their share of the occupied fraction $\phi_I$. */
+      double fraction = 0.;
+
+      /**
+       * The unit vector that points from the function to a crack next to it,
+       * or zero if there is none: the same on all processes that give one.
+       */
+      std::array<double, dim> side{};
+    };
+
+    /** What there is to know about an active function. */
+    struct Function
+    {
+      types::global_dof_index index    = numbers::invalid_dof_index;
+      unsigned int            owner    = numbers::invalid_unsigned_int;
+      FunctionClass           category = FunctionClass::standard;
+      double                  fraction = 0.;
+      std::array<double, dim> side{};
+    };
+
+    using SupportTable =
+      std::unordered_map<Key, Support, FunctionKeyHash<dim>>;
+    using FunctionTable =
+      std::unordered_map<Key, Function, FunctionKeyHash<dim>>;
+
+    /**
+     * Constructor. Nothing is numbered yet.
+     *
+     * @param triangulation a (distributed) grid of Cartesian cells
+     * @param degree of the splines, from one to three
+     */
+    SplineSpace(const Triangulation<dim> &triangulation,
+                const unsigned int        degree);
+
+    /**
+     * Number the functions in @p supports, those of all processes together.
+     * Functions are standard if their total fraction is more than @p threshold.
+     * Collective.
+     */
+    void
+    reinit(const SupportTable &supports, const double threshold);
+
+    /**
+     * Return what is known about a function that this process sees, or a null
+     * pointer if it does not see it.
+     */
+    const Function *
+    find(const Key &key) const;
+
+    /** Return the functions that this process sees. */
+    const FunctionTable &
+    functions() const;
+
+    /**
+     * Return what is known about any functions; those that are exterior are
+     * missing in the result. Collective.
+     */
+    FunctionTable
+    query(const std::vector<Key> &keys) const;
+
+    /**
+     * Return function @p i, in lexicographic order, of those that a cell sees
+     * (in part 0).
+     */
+    Key
+    cell_function(const typename CartesianLattice<dim>::Index &cell_index,
+                  const unsigned int                           level,
+                  const unsigned int                           i) const;
+
+    /** The degree of the splines. */
+    unsigned int
+    degree() const;
+
+    /** The number of functions that a cell sees. */
+    unsigned int
+    n_functions_per_cell() const;
+
+    /** Total number of active functions. */
+    types::global_dof_index
+    n_functions() const;
+
+    /** Number of independent functions: the size of a scalar problem. */
+    types::global_dof_index
+    n_independent() const;
+
+    /** Number of deficient functions. */
+    types::global_dof_index
+    n_deficient() const;
+
+    /** Number of twins. */
+    types::global_dof_index
+    n_twins() const;
+
+    /** The independent functions that this process owns: a contiguous range. */
+    const IndexSet &
+    locally_owned_independent() const;
+
+    /** All functions that this process owns, as a set of all indices. */
+    const IndexSet &
+    locally_owned() const;
+
+    /** All functions that this process sees, as a set of all indices. */
+    const IndexSet &
+    locally_relevant() const;
+
+    /** The lattice of the cells. */
+    const CartesianLattice<dim> &
+    lattice() const;
+
+    /** The communicator of the triangulation. */
+    const MPI_Comm &
+    communicator() const;
+
+  private:
+    const MPI_Comm              mpi_communicator;
+    const CartesianLattice<dim> cell_lattice;
+    const unsigned int          p;
+
+    FunctionTable                    table;
+    FunctionDirectory<dim, Function> directory;
+
+    types::global_dof_index n_active_functions      = 0;
+    types::global_dof_index n_independent_functions = 0;
+    types::global_dof_index n_twin_functions        = 0;
+
+    IndexSet owned_independent;
+    IndexSet owned;
+    IndexSet relevant;
+  };
+} // namespace EBSMPM
+
+#endif

@@ -1,0 +1,324 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/assembly/damage_system.h>
+#include <ebsmpm/assembly/dense_kernels.h>
+#include <ebsmpm/assembly/field_evaluation.h>
+#include <ebsmpm/splines/bspline_kernel.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace EBSMPM
+{
+  template <int dim>
+  DamageSystem<dim>::DamageSystem(const double fracture_energy,
+                                  const double length_scale)
+    : Gc(fracture_energy)
+    , l(length_scale)
+  {}
+
+
+
+  template <int dim>
+  bool
+  DamageSystem<dim>::reinit(const CellPoints<dim> &          points_,
+                            const CellPoints<dim> &          boundary_points_,
+                            const SplineSpace<dim> &         space,
+                            const AffineConstraints<double> &constraints,
+                            const std::vector<Pattern> &     patterns,
+                            const std::vector<Pattern> &boundary_patterns)
+  {
+    points          = &points_;
+    boundary_points = &boundary_points_;
+    spline_space    = &space;
+
+    functions = make_partitioner(space, constraints, 1);
+    material_groups.reinit(*points, patterns, space, constraints, *functions);
+    boundary_groups.reinit(
+      *boundary_points, boundary_patterns, space, constraints, *functions);
+
+    std::vector<SystemMatrix::List> lists;
+    for (const auto *groups : {&material_groups, &boundary_groups})
+      for (const auto &group : groups->groups())
+        lists.push_back({groups->functions(group), group.n_functions});
+    const bool is_new = system_matrix.reinit(*functions, 1, lists);
+
+    const unsigned int n      = space.n_functions_per_cell();
+    const unsigned int m      = std::max({n,
+                                     material_groups.max_n_functions(),
+                                     boundary_groups.max_n_functions()});
+    const unsigned int stride = DenseKernels::padded(n);
+    X.assign((dim + 1) * std::max(material_groups.max_n_points(), 1U) * stride,
+             0.);
+    product.resize(n * stride);
+    local_vector.resize(n);
+    half.resize(n * m);
+    local_matrix.resize(m * m);
+    return is_new;
+  }
+
+
+
+  template <int dim>
+  LA::FieldVector
+  DamageSystem<dim>::make_vector() const
+  {
+    return LA::FieldVector(functions);
+  }
+
+
+
+  template <int dim>
+  void
+  DamageSystem<dim>::assemble(const MaterialState<dim> & state,
+                              const BoundaryState<dim> & boundary,
+                              const std::vector<double> &boundary_driving,
+                              LA::FieldVector &          right_hand_side)
+  {
+    const BSplineKernel<dim> kernel(spline_space->degree());
+    const unsigned int       n      = kernel.n_functions();
+    const unsigned int       stride = DenseKernels::padded(n);
+    std::array<double, BSplineKernel<dim>::max_n_functions>       B;
+    std::array<double, dim * BSplineKernel<dim>::max_n_functions> G;
+
+    right_hand_side.zero_out_ghost_values();
+    right_hand_side = 0.;
+    system_matrix.set_zero();
+
+    unsigned int list = 0;
+    for (const auto &group : material_groups.groups())
+      {
+        Tensor<1, dim> inverse_h = spline_space->lattice().cell_extents(
+          points->cells()[group.cell].level);
+        for (unsigned int d = 0; d < dim; ++d)
+          inverse_h[d] = 1. / inverse_h[d];
+
+        std::fill(local_vector.begin(), local_vector.end(), 0.);
+        double *x = X.data();
+        for (unsigned int k = group.begin; k < group.end; ++k)
+          {
+            const unsigned int q = material_groups.point(k);
+            kernel.values_and_gradients(
+              points->unit_point(q), inverse_h, B.data(), G.data(), n);
+
+            const double          V = state.volume[q];
+            const double          H = state.history[q];
+            const Tensor<2, dim> &F = state.F[q];
+
+            const double root_reaction  = std::sqrt(V * (2. * H + Gc / l));
+            const double root_diffusion = std::sqrt(V * Gc * l);
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                x[i] = root_reaction * B[i];
+                local_vector[i] += 2. * V * H * B[i];
+              }
+            x += stride;
+            for (unsigned int d = 0; d < dim; ++d, x += stride)
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  double sum = 0.;
+                  for (unsigned int j = 0; j < dim; ++j)
+                    sum += F[j][d] * G[j * n + i];
+                  x[i] = root_diffusion * sum;
+                }
+          }
+        DenseKernels::transposed_product((dim + 1) * (group.end - group.begin),
+                                         n,
+                                         stride,
+                                         X.data(),
+                                         stride,
+                                         X.data(),
+                                         product.data());
+        distribute(material_groups,
+                   group,
+                   list++,
+                   product.data(),
+                   stride,
+                   local_vector.data(),
+                   right_hand_side);
+      }
+
+    if (!boundary_driving.empty())
+      for (const auto &group : boundary_groups.groups())
+        {
+          std::fill(local_vector.begin(), local_vector.end(), 0.);
+          std::fill(product.begin(), product.end(), 0.);
+          for (unsigned int k = group.begin; k < group.end; ++k)
+            {
+              const unsigned int q = boundary_groups.point(k);
+              kernel.values(boundary_points->unit_point(q), B.data());
+              const double weight =
+                -2. * boundary.area[q] * boundary_driving[q];
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  local_vector[i] += weight * B[i];
+                  for (unsigned int j = 0; j < n; ++j)
+                    product[i * stride + j] += weight * B[i] * B[j];
+                }
+            }
+          distribute(boundary_groups,
+                     group,
+                     list++,
+                     product.data(),
+                     stride,
+                     local_vector.data(),
+                     right_hand_side);
+        }
+
+    right_hand_side.compress(VectorOperation::add);
+    system_matrix.compress();
+  }
+
+
+
+  template <int dim>
+  void
+  DamageSystem<dim>::distribute(const PointGroups<dim> &                groups,
+                                const typename PointGroups<dim>::Group &group,
+                                const unsigned int                      list,
+                                const double *                          matrix,
+                                const unsigned int                      stride,
+                                const double *                          vector,
+                                LA::FieldVector &right_hand_side)
+  {
+    const unsigned int  n = groups.n_functions_per_cell();
+    const unsigned int  m = group.n_functions;
+    const unsigned int *f = groups.functions(group);
+
+    if (const double *E = groups.extension(group))
+      {
+        std::fill_n(half.begin(), n * m, 0.);
+        for (unsigned int I = 0; I < n; ++I)
+          for (unsigned int J = 0; J < n; ++J)
+            for (unsigned int j = 0; j < m; ++j)
+              half[I * m + j] += matrix[I * stride + J] * E[J * m + j];
+        for (unsigned int i = 0; i < m; ++i)
+          {
+            double sum = 0.;
+            for (unsigned int I = 0; I < n; ++I)
+              sum += E[I * m + i] * vector[I];
+            right_hand_side.local_element(f[i]) += sum;
+            for (unsigned int j = 0; j < m; ++j)
+              {
+                double entry = 0.;
+                for (unsigned int I = 0; I < n; ++I)
+                  entry += E[I * m + i] * half[I * m + j];
+                local_matrix[i * m + j] = entry;
+              }
+          }
+      }
+    else
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          right_hand_side.local_element(f[i]) += vector[i];
+          for (unsigned int j = 0; j < n; ++j)
+            local_matrix[i * n + j] = matrix[i * stride + j];
+        }
+    system_matrix.add(list, local_matrix.data());
+  }
+
+
+
+  template <int dim>
+  const LA::SparseMatrix &
+  DamageSystem<dim>::matrix() const
+  {
+    return system_matrix.matrix();
+  }
+
+
+
+  template <int dim>
+  void
+  DamageSystem<dim>::evaluate(const LA::FieldVector &damage,
+                              std::vector<double> &  at_points,
+                              std::vector<double> &  at_boundary_points) const
+  {
+    damage.update_ghost_values();
+    const auto evaluate_at = [&](const CellPoints<dim> & cell_points,
+                                 const PointGroups<dim> &groups,
+                                 std::vector<double> &   values) {
+      values.resize(cell_points.n_points());
+      evaluate_field<1>(cell_points,
+                        groups,
+                        spline_space->lattice(),
+                        spline_space->degree(),
+                        damage,
+                        [&](const unsigned int    q,
+                            const Tensor<1, 1> &  value,
+                            const std::array<Tensor<1, dim>, 1> &) {
+                          values[q] = value[0];
+                        });
+    };
+    evaluate_at(*points, material_groups, at_points);
+    evaluate_at(*boundary_points, boundary_groups, at_boundary_points);
+  }
+
+
+
+  template <int dim>
+  double
+  DamageSystem<dim>::crack_area(const MaterialState<dim> &state,
+                                const LA::FieldVector &   damage) const
+  {
+    damage.update_ghost_values();
+    double area = 0.;
+    evaluate_field<1>(*points,
+                      material_groups,
+                      spline_space->lattice(),
+                      spline_space->degree(),
+                      damage,
+                      [&](const unsigned int                   q,
+                          const Tensor<1, 1> &                 d,
+                          const std::array<Tensor<1, dim>, 1> &gradient) {
+                        const Tensor<1, dim> reference_gradient =
+                          transpose(state.F[q]) * gradient[0];
+                        area += state.volume[q] *
+                                (d[0] * d[0] +
+                                 l * l * reference_gradient.norm_square()) /
+                                (2. * l);
+                      });
+    return Utilities::MPI::sum(area, spline_space->communicator());
+  }
+
+
+
+  template <int dim>
+  double
+  DamageSystem<dim>::fracture_energy() const
+  {
+    return Gc;
+  }
+
+
+
+  template <int dim>
+  double
+  DamageSystem<dim>::length_scale() const
+  {
+    return l;
+  }
+
+
+
+  template <int dim>
+  const SplineSpace<dim> &
+  DamageSystem<dim>::space() const
+  {
+    return *spline_space;
+  }
+
+
+
+  template class DamageSystem<2>;
+  template class DamageSystem<3>;
+} // namespace EBSMPM

@@ -1,0 +1,388 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/base/exceptions.h>
+
+#include <ebsmpm/lac/amg_hierarchy.h>
+#include <ebsmpm/lac/klu_factorization.h>
+#include <ebsmpm/lac/linear_solver.h>
+#include <ebsmpm/lac/mumps_factorization.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/solver_gmres.h>
+
+#include <cmath>
+
+namespace EBSMPM
+{
+  namespace
+  {
+    // The residual, relative to the right hand side, at which a solution is
+    // accepted although round-off prevents a smaller one.
+    constexpr double acceptable_residual = 1e-5;
+
+
+
+    /**
+     * Thrown by ObservedOperator, caught where the iteration was started.
+     */
+    enum class Observation
+    {
+      indefinite_matrix,
+      indefinite_preconditioner,
+      not_finite
+    };
+
+
+
+    /**
+     * A matrix or a preconditioner as the iterations see it: with every product
+     * it looks at the Rayleigh quotient. SolverCG computes the same numbers,
+     * but does not tell their signs, and neither it nor SolverGMRES likes a
+     * NaN.
+     */
+    template <typename Operator>
+    class ObservedOperator
+    {
+    public:
+      ObservedOperator(const Operator   &A,
+                       const bool        must_be_definite,
+                       const Observation if_indefinite)
+        : A(A)
+        , must_be_definite(must_be_definite)
+        , if_indefinite(if_indefinite)
+      {}
+
+      void
+      vmult(LA::Vector &dst, const LA::Vector &src) const
+      {
+        A.vmult(dst, src);
+        const double quotient = src * dst;
+        if (!std::isfinite(quotient))
+          throw Observation::not_finite;
+        if (must_be_definite && quotient < 0.)
+          throw if_indefinite;
+      }
+
+    private:
+      const Operator   &A;
+      const bool        must_be_definite;
+      const Observation if_indefinite;
+    };
+  } // namespace
+
+
+
+  LinearSolver::LinearSolver()
+    : LinearSolver(AdditionalData())
+  {}
+
+
+
+  LinearSolver::LinearSolver(const AdditionalData &data)
+    : additional_data(data)
+    , method(data.method)
+  {
+    AssertThrow(data.relative_tolerance > 0. && data.relative_tolerance < 1.,
+                ExcParameter("Linear solver/Relative tolerance",
+                             std::to_string(data.relative_tolerance),
+                             "larger than 0 and smaller than 1"));
+    AssertThrow(data.max_iterations > 0,
+                ExcParameter("Linear solver/Maximum iterations",
+                             std::to_string(data.max_iterations),
+                             "positive"));
+  }
+
+
+
+  LinearSolver::~LinearSolver() = default;
+
+
+
+  void
+  LinearSolver::set_block_size(const unsigned int size)
+  {
+    if (size != block_size)
+      clear();
+    block_size = size;
+  }
+
+
+
+  void
+  LinearSolver::set_near_null_space(const std::vector<LA::Vector> &vectors)
+  {
+    near_null_space = vectors;
+  }
+
+
+
+  void
+  LinearSolver::clear()
+  {
+    invalidate();
+    preconditioner.reset();
+  }
+
+
+
+  void
+  LinearSolver::invalidate()
+  {
+    is_initialized = false;
+  }
+
+
+
+  LinearSolver::Method
+  LinearSolver::choose_method(const LA::SparseMatrix &A) const
+  {
+    if (additional_data.method != Method::automatic)
+      return additional_data.method;
+    if (A.n_nonzero_elements() > additional_data.max_entries_for_direct)
+      return Method::cg_amg;
+    return MumpsFactorization::is_available() ? Method::mumps : Method::klu;
+  }
+
+
+
+  void
+  LinearSolver::refresh(const LA::SparseMatrix &A)
+  {
+    is_initialized = false;
+    AssertThrow(std::isfinite(A.frobenius_norm()),
+                ExcSolverFailure(
+                  "The matrix has an entry that is not a finite number."));
+
+    const Method new_method = choose_method(A);
+    if (!preconditioner || new_method != method)
+      {
+        preconditioner.reset();
+        if (new_method == Method::mumps)
+          preconditioner = std::make_unique<MumpsFactorization>();
+        else if (new_method == Method::klu)
+          preconditioner = std::make_unique<KluFactorization>();
+        else
+          preconditioner = std::make_unique<AmgHierarchy>();
+        method = new_method;
+      }
+    if (auto *amg = dynamic_cast<AmgHierarchy *>(preconditioner.get()))
+      {
+        amg->set_block_size(block_size);
+        amg->set_near_null_space(near_null_space);
+      }
+
+    preconditioner->initialize(A);
+    is_indefinite  = preconditioner->is_indefinite();
+    rows           = A.locally_owned_range_indices();
+    is_initialized = true;
+  }
+
+
+
+  LinearSolver::Outcome
+  LinearSolver::iterate(const LA::SparseMatrix &A,
+                        LA::Vector             &x,
+                        const LA::Vector       &b,
+                        const double            tolerance,
+                        const unsigned int      max_iterations,
+                        const bool              use_gmres,
+                        Report                 &report) const
+  {
+    const ObservedOperator<LA::SparseMatrix> matrix(
+      A, !use_gmres, Observation::indefinite_matrix);
+    const ObservedOperator<ReusablePreconditioner> inverse(
+      *preconditioner, !use_gmres, Observation::indefinite_preconditioner);
+
+    SolverControl control(max_iterations, tolerance, false, false);
+    Outcome       outcome = Outcome::converged;
+    try
+      {
+        if (use_gmres)
+          {
+            // Right preconditioning: the residual that is tested is the true
+            // one.
+            const SolverGMRES<LA::Vector>::AdditionalData data(52, true);
+            SolverGMRES<LA::Vector>(control, data).solve(matrix, x, b, inverse);
+          }
+        else
+          SolverCG<LA::Vector>(control).solve(matrix, x, b, inverse);
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        outcome = Outcome::stagnated;
+      }
+    catch (const Observation observation)
+      {
+        if (observation == Observation::not_finite)
+          outcome = Outcome::not_finite;
+        else
+          outcome = Outcome::indefinite;
+        if (observation == Observation::indefinite_matrix)
+          report.indefinite = true;
+      }
+    report.iterations += control.last_step();
+    report.final_residual = control.last_value();
+
+    // The iteration only updates its residual. With a matrix that is singular
+    // up to round-off, that has nothing to do with the true one.
+    if (outcome == Outcome::converged)
+      {
+        LA::Vector residual(b);
+        report.final_residual = A.residual(residual, x, b);
+        if (!(report.final_residual <=
+              std::max(10. * tolerance, acceptable_residual * b.l2_norm())))
+          outcome = Outcome::singular;
+      }
+    return outcome;
+  }
+
+
+
+  LinearSolver::Report
+  LinearSolver::solve(const LA::SparseMatrix &A,
+                      LA::Vector             &x,
+                      const LA::Vector       &b)
+  {
+    return solve(A, x, b, additional_data.relative_tolerance);
+  }
+
+
+
+  LinearSolver::Report
+  LinearSolver::solve(const LA::SparseMatrix &A,
+                      LA::Vector             &x,
+                      const LA::Vector       &b,
+                      const double            relative_tolerance)
+  {
+    Report report;
+
+    const double norm_of_b = b.l2_norm();
+    AssertThrow(std::isfinite(norm_of_b),
+                ExcSolverFailure("The right hand side has an entry that is not "
+                                 "a finite number."));
+    if (norm_of_b == 0.)
+      {
+        x = 0.;
+        return report;
+      }
+    const double     tolerance = relative_tolerance * norm_of_b;
+    const LA::Vector start(x);
+
+    // First with what is there, if it fits. If it belongs to an indefinite
+    // matrix, it is no preconditioner for conjugate gradients.
+    const bool same_rows =
+      dealii::Utilities::MPI::min((is_initialized && rows.size() == A.m() &&
+                                   rows == A.locally_owned_range_indices()) ?
+                                    1 :
+                                    0,
+                                  A.get_mpi_communicator()) == 1;
+    if (same_rows && choose_method(A) == method)
+      {
+        const Outcome outcome =
+          iterate(A,
+                  x,
+                  b,
+                  tolerance,
+                  std::min(additional_data.max_iterations,
+                           iterations_when_new +
+                             additional_data.refresh_iterations),
+                  is_indefinite || method == Method::gmres_amg,
+                  report);
+        if (outcome == Outcome::converged)
+          {
+            report.indefinite = is_indefinite;
+            return report;
+          }
+        x = start;
+      }
+
+    // Then with a new one.
+    refresh(A);
+    is_indefinite    = is_indefinite || report.indefinite;
+    report.refreshed = true;
+
+    const unsigned int iterations_before = report.iterations;
+    const auto         iterate_once      = [&]() {
+      return iterate(A,
+                     x,
+                     b,
+                     tolerance,
+                     additional_data.max_iterations,
+                     is_indefinite || method == Method::gmres_amg,
+                     report);
+    };
+    Outcome outcome = iterate_once();
+    if (outcome == Outcome::indefinite)
+      {
+        is_indefinite = true;
+        x             = start;
+        outcome       = iterate_once();
+      }
+    report.indefinite   = report.indefinite || is_indefinite;
+    iterations_when_new = report.iterations - iterations_before;
+
+    if (outcome != Outcome::converged)
+      {
+        is_initialized = false;
+        AssertThrow(outcome != Outcome::not_finite &&
+                      std::isfinite(report.final_residual),
+                    ExcSolverFailure(
+                      "The linear solver (" + preconditioner->name() +
+                      ") produced numbers that are not finite."));
+        const std::string residual =
+          std::to_string(report.final_residual / norm_of_b);
+        AssertThrow(outcome != Outcome::singular,
+                    ExcSolverFailure("The matrix is singular up to round-off: "
+                                     "the linear solver (" +
+                                     preconditioner->name() +
+                                     ") leaves a relative residual of " +
+                                     residual + "."));
+        AssertThrow(false,
+                    ExcSolverFailure("The linear solver (" +
+                                     preconditioner->name() +
+                                     ") stagnates: after " +
+                                     std::to_string(iterations_when_new) +
+                                     " iterations the relative residual is " +
+                                     residual + "."));
+      }
+    return report;
+  }
+
+
+
+  LinearSolver::Method
+  LinearSolver::method_from_name(const std::string &name)
+  {
+    if (name == "automatic")
+      return Method::automatic;
+    if (name == "MUMPS")
+      return Method::mumps;
+    if (name == "KLU")
+      return Method::klu;
+    if (name == "CG+AMG")
+      return Method::cg_amg;
+    AssertThrow(name == "GMRES+AMG",
+                ExcParameter("Linear solver/Method",
+                             name,
+                             "one of " + method_names()));
+    return Method::gmres_amg;
+  }
+
+
+
+  std::string
+  LinearSolver::method_names()
+  {
+    return "automatic|MUMPS|KLU|CG+AMG|GMRES+AMG";
+  }
+} // namespace EBSMPM

@@ -1,0 +1,346 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/base/exceptions.h>
+
+#include <ebsmpm/lac/mumps_factorization.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Export.h>
+#include <Epetra_Map.h>
+#include <Epetra_MpiComm.h>
+#include <Epetra_Vector.h>
+
+#include <vector>
+
+// Trilinos' interface to MUMPS includes the same header, so that whoever has
+// the former has the latter. The library must be on the linker's command line.
+#if __has_include(<dmumps_c.h>) && !defined(EBSMPM_WITHOUT_MUMPS)
+#  include <dmumps_c.h>
+#  define EBSMPM_HAVE_MUMPS
+#endif
+
+namespace EBSMPM
+{
+  namespace
+  {
+    // Entries per row, on average, up to which the problem counts as a
+    // two-dimensional one.
+    constexpr double two_dimensional_row_length = 100.;
+
+    // A pivot is considered to vanish if its size, relative to the norm of the
+    // scaled matrix, is below this number. The pivots of a loose body are
+    // round-off, which grows with the number of unknowns, up to 1e-11 for
+    // 33,000. A body that is held by a strip of a millionth of its stiffness
+    // has none below 1e-8.
+    constexpr double null_pivot_tolerance = 1e-10;
+  } // namespace
+
+
+
+#ifdef EBSMPM_HAVE_MUMPS
+
+  struct MumpsFactorization::Data
+  {
+    explicit Data(const Epetra_CrsMatrix &A)
+      : row_map(A.RowMap())
+      , communicator(
+          dynamic_cast<const Epetra_MpiComm &>(A.RowMap().Comm()).Comm())
+    {
+      extract_entries(A, rows, columns);
+
+      mumps.comm_fortran = MPI_Comm_c2f(communicator);
+      mumps.par          = 1; // the first process works, too
+      mumps.sym          = 2; // symmetric, perhaps indefinite
+      call(-1);
+
+      icntl(1) = icntl(2) = icntl(3) = -1; // no output
+      icntl(4)                       = 0;
+      icntl(14)                      = 30; // per cent of additional memory
+      icntl(18)                      = 3;  // distributed matrix
+      icntl(20)                      = 10; // distributed right hand side
+      icntl(21)                      = 1;  // distributed solution
+      icntl(24)                      = 1;  // look for null pivots
+      mumps.cntl[2]                  = null_pivot_tolerance;
+
+      // Approximate minimum fill wins in two dimensions: 20 % less work than
+      // the automatic choice, and half of its time for the analysis.
+      const double row_length =
+        A.NumGlobalNonzeros() / std::max(1., 1. * A.NumGlobalRows());
+      if (row_length < two_dimensional_row_length)
+        icntl(7) = 2;
+
+      mumps.n       = A.NumGlobalRows();
+      mumps.nnz_loc = rows.size();
+      mumps.irn_loc = rows.data();
+      mumps.jcn_loc = columns.data();
+      call(1);
+    }
+
+    ~Data()
+    {
+      mumps.job = -2;
+      dmumps_c(&mumps);
+    }
+
+    /**
+     * Write indices of the entries of the upper triangle, counted from one, and
+     * their values into the given vectors.
+     */
+    void
+    extract_entries(const Epetra_CrsMatrix &A,
+                    std::vector<int>       &rows,
+                    std::vector<int>       &columns)
+    {
+      rows.clear();
+      columns.clear();
+      values.clear();
+      for (int i = 0; i < A.NumMyRows(); ++i)
+        {
+          int     n_entries;
+          double *row_values;
+          int    *row_columns;
+          A.ExtractMyRowView(i, n_entries, row_values, row_columns);
+          const int row = A.GRID(i);
+          for (int k = 0; k < n_entries; ++k)
+            {
+              const int column = A.GCID(row_columns[k]);
+              if (column >= row)
+                {
+                  rows.push_back(row + 1);
+                  columns.push_back(column + 1);
+                  values.push_back(row_values[k]);
+                }
+            }
+        }
+    }
+
+    /**
+     * Read the values of a matrix. Return whether its entries are in the same
+     * places, on all processes.
+     */
+    bool
+    read(const Epetra_CrsMatrix &A)
+    {
+      if (!A.RowMap().SameAs(row_map))
+        return false;
+
+      std::vector<int> new_rows, new_columns;
+      extract_entries(A, new_rows, new_columns);
+      const bool same = (new_rows == rows && new_columns == columns);
+      return dealii::Utilities::MPI::min(same ? 1 : 0, communicator) == 1;
+    }
+
+    void
+    factorise()
+    {
+      mumps.a_loc = values.data();
+      mumps.job   = 2;
+      dmumps_c(&mumps);
+      // More memory than expected: MUMPS leaves it to us to ask for it.
+      while ((mumps.infog[0] == -8 || mumps.infog[0] == -9) && icntl(14) < 1000)
+        {
+          icntl(14) *= 3;
+          dmumps_c(&mumps);
+        }
+      check();
+      AssertThrow(mumps.infog[27] == 0,
+                  ExcSolverFailure("The matrix is singular: MUMPS found " +
+                                   std::to_string(mumps.infog[27]) +
+                                   " vanishing pivots."));
+
+      // Where MUMPS has put the unknowns is known after the first solution with
+      // this factorisation.
+      exporter.reset();
+      solution.resize(std::max(1, mumps.info[22]));
+      solution_rows.resize(solution.size());
+      mumps.sol_loc  = solution.data();
+      mumps.isol_loc = solution_rows.data();
+      mumps.lsol_loc = solution.size();
+      n_solution     = mumps.info[22];
+
+      right_hand_side.resize(std::max(1, row_map.NumMyElements()));
+      right_hand_side_rows.assign(right_hand_side.size(), 0);
+      for (int i = 0; i < row_map.NumMyElements(); ++i)
+        right_hand_side_rows[i] = row_map.GID(i) + 1;
+      mumps.nrhs     = 1;
+      mumps.nloc_rhs = row_map.NumMyElements();
+      mumps.lrhs_loc = right_hand_side.size();
+      mumps.rhs_loc  = right_hand_side.data();
+      mumps.irhs_loc = right_hand_side_rows.data();
+    }
+
+    void
+    solve(Epetra_MultiVector &dst, const Epetra_MultiVector &src)
+    {
+      std::copy(src[0], src[0] + src.MyLength(), right_hand_side.begin());
+      call(3);
+      if (!exporter)
+        {
+          std::vector<int> indices(n_solution);
+          for (int i = 0; i < n_solution; ++i)
+            indices[i] = solution_rows[i] - 1;
+          solution_map = std::make_unique<Epetra_Map>(
+            -1, n_solution, indices.data(), 0, row_map.Comm());
+          exporter = std::make_unique<Epetra_Export>(*solution_map, row_map);
+        }
+      const Epetra_Vector view(View, *solution_map, solution.data());
+      dst.Export(view, *exporter, Insert);
+    }
+
+    /**
+     * Return a parameter of MUMPS by the number it has in the manual.
+     */
+    int &
+    icntl(const unsigned int i)
+    {
+      return mumps.icntl[i - 1];
+    }
+
+    void
+    call(const int job)
+    {
+      mumps.job = job;
+      dmumps_c(&mumps);
+      check();
+    }
+
+    /**
+     * Raise an exception if MUMPS reports an error, which it does on all
+     * processes.
+     */
+    void
+    check() const
+    {
+      AssertThrow(mumps.infog[0] != -10 && mumps.infog[0] != -6,
+                  ExcSolverFailure(
+                    "The matrix is singular: MUMPS found a vanishing pivot."));
+      AssertThrow(mumps.infog[0] >= 0,
+                  ExcSolverFailure("MUMPS failed with the error " +
+                                   std::to_string(mumps.infog[0]) +
+                                   ", additional information " +
+                                   std::to_string(mumps.infog[1]) + "."));
+    }
+
+    DMUMPS_STRUC_C mumps = {};
+
+    const Epetra_Map row_map;
+    const MPI_Comm   communicator;
+
+    std::vector<int>    rows;
+    std::vector<int>    columns;
+    std::vector<double> values;
+
+    std::vector<double> right_hand_side;
+    std::vector<int>    right_hand_side_rows;
+
+    int                            n_solution = 0;
+    std::vector<double>            solution;
+    std::vector<int>               solution_rows;
+    std::unique_ptr<Epetra_Map>    solution_map;
+    std::unique_ptr<Epetra_Export> exporter;
+  };
+
+
+
+  void
+  MumpsFactorization::initialize(const LA::SparseMatrix &A)
+  {
+    const Epetra_CrsMatrix &matrix = A.trilinos_matrix();
+    if (!data || !data->read(matrix))
+      {
+        data.reset(); // releases its memory first
+        data = std::make_unique<Data>(matrix);
+      }
+    data->factorise();
+  }
+
+
+
+  void
+  MumpsFactorization::vmult(LA::Vector &dst, const LA::Vector &src) const
+  {
+    data->solve(dst.trilinos_vector(), src.trilinos_vector());
+  }
+
+
+
+  bool
+  MumpsFactorization::is_indefinite() const
+  {
+    return data->mumps.infog[11] > 0;
+  }
+
+
+
+  bool
+  MumpsFactorization::is_available()
+  {
+    return true;
+  }
+
+#else
+
+  struct MumpsFactorization::Data
+  {};
+
+
+
+  void
+  MumpsFactorization::initialize(const LA::SparseMatrix &)
+  {
+    AssertThrow(false,
+                ExcSolverFailure("The library was compiled without MUMPS; "
+                                 "choose another linear solver."));
+  }
+
+
+
+  void
+  MumpsFactorization::vmult(LA::Vector &, const LA::Vector &) const
+  {
+    Assert(false, ExcNotInitialized());
+  }
+
+
+
+  bool
+  MumpsFactorization::is_indefinite() const
+  {
+    return false;
+  }
+
+
+
+  bool
+  MumpsFactorization::is_available()
+  {
+    return false;
+  }
+
+#endif
+
+
+
+  MumpsFactorization::MumpsFactorization() = default;
+
+
+
+  MumpsFactorization::~MumpsFactorization() = default;
+
+
+
+  std::string
+  MumpsFactorization::name() const
+  {
+    return "MUMPS";
+  }
+} // namespace EBSMPM

@@ -1,0 +1,139 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/base/exceptions.h>
+
+#include <ebsmpm/particles/notch.h>
+
+#include <algorithm>
+
+namespace EBSMPM
+{
+  namespace Notch
+  {
+    namespace
+    {
+      // Directions in the plane with the given normal.
+      std::vector<Tensor<1, 2>>
+      directions_in_plane(const Tensor<1, 2> &n)
+      {
+        const Tensor<1, 2> t = Point<2>(-n[1], n[0]);
+        return {t, -t};
+      }
+
+
+
+      std::vector<Tensor<1, 3>>
+      directions_in_plane(const Tensor<1, 3> &n)
+      {
+        unsigned int smallest = 0;
+        for (unsigned int d = 1; d < 3; ++d)
+          if (std::abs(n[d]) < std::abs(n[smallest]))
+            smallest = d;
+        Tensor<1, 3> s = cross_product_3d(n, Point<3>::unit_vector(smallest));
+        s /= s.norm();
+        const Tensor<1, 3> t = cross_product_3d(n, s);
+
+        std::vector<Tensor<1, 3>> directions;
+        constexpr unsigned int    n_directions = 16;
+        for (unsigned int i = 0; i < n_directions; ++i)
+          {
+            const double phi = 2. * numbers::PI * i / n_directions;
+            directions.push_back(std::cos(phi) * s + std::sin(phi) * t);
+          }
+        return directions;
+      }
+
+
+
+      // Label the points of one kind.
+      template <int dim, typename View>
+      void
+      label(const Slit<dim> &slit, PointSet<dim, View> &points)
+      {
+        const Tensor<1, dim>              n = slit.normal / slit.normal.norm();
+        const std::vector<Tensor<1, dim>> directions = directions_in_plane(n);
+        const double                      tie        = 1e-10 * slit.label_width;
+
+        for (auto &particle : points.handler())
+          {
+            const Point<dim> &x        = particle.get_location();
+            const double      distance = (x - slit.point) * n;
+            if (std::abs(distance) > slit.label_width + tie)
+              continue;
+
+            // The foot of the perpendicular is on the slit, or not far ahead
+            // of it. The region has no distance function, so look around.
+            const Point<dim> foot    = x - distance * n;
+            const bool       is_open = slit.open_region->contains(foot);
+            bool             is_near = is_open;
+            for (const double radius : {0.25 * slit.label_width,
+                                        0.5 * slit.label_width,
+                                        0.75 * slit.label_width,
+                                        slit.label_width})
+              for (const Tensor<1, dim> &direction : directions)
+                is_near = is_near ||
+                          slit.open_region->contains(foot + radius * direction);
+            if (!is_near)
+              continue;
+
+            View view(particle.get_properties());
+            view.set_side(distance >= -tie ? -n : n);
+            view.label_frozen() = 1;
+            if (is_open && std::abs(distance) <= slit.damage_width + tie)
+              view.peak_damage() = 1;
+          }
+      }
+    } // namespace
+
+
+
+    template <int dim>
+    void
+    label_slit(const Slit<dim>     &slit,
+               MaterialPoints<dim> &points,
+               BoundaryPoints<dim> &boundary_points)
+    {
+      AssertThrow(slit.normal.norm() > 0,
+                  ExcInput("The normal of a slit must not be zero."));
+      AssertThrow(slit.open_region != nullptr,
+                  ExcInput("A slit needs a region in which it is open."));
+      label(slit, points);
+      label(slit, boundary_points);
+    }
+
+
+
+    template <int dim>
+    void
+    initial_history(const Shape<dim>    &shape,
+                    const double         value,
+                    MaterialPoints<dim> &points)
+    {
+      for (auto &particle : points.handler())
+        if (shape.contains(particle.get_location()))
+          {
+            MaterialPoint<dim> point(particle.get_properties());
+            point.history() = std::max(point.history(), value);
+          }
+    }
+
+
+
+    template void
+    label_slit<2>(const Slit<2> &, MaterialPoints<2> &, BoundaryPoints<2> &);
+    template void
+    label_slit<3>(const Slit<3> &, MaterialPoints<3> &, BoundaryPoints<3> &);
+
+    template void
+    initial_history<2>(const Shape<2> &, const double, MaterialPoints<2> &);
+    template void
+    initial_history<3>(const Shape<3> &, const double, MaterialPoints<3> &);
+  } // namespace Notch
+} // namespace EBSMPM

@@ -1,0 +1,629 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/base/exceptions.h>
+#include <ebsmpm/materials/make_material.h>
+#include <ebsmpm/particles/expression.h>
+#include <ebsmpm/solvers/parameters.h>
+
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace EBSMPM
+{
+  namespace internal
+  {
+    namespace ParametersImplementation
+    {
+      const Patterns::Double positive(1e-300, 1e300);
+      const Patterns::Double not_negative(0., 1e300);
+      const Patterns::Double fraction(0., 1.);
+    } // namespace ParametersImplementation
+  }   // namespace internal
+
+  using namespace internal::ParametersImplementation;
+
+
+
+  Parameters::Grid::Grid()
+    : ParameterAcceptor("Background grid")
+  {
+    add_parameter("Dimension",
+                  dimension,
+                  "Number of space dimensions; plane strain in 2d.",
+                  prm,
+                  Patterns::Integer(2, 3));
+    add_parameter("Degree",
+                  degree,
+                  "Degree of the B-splines.",
+                  prm,
+                  Patterns::Integer(1, 3));
+    add_parameter("Cell size",
+                  cell_size,
+                  "Edge length h of the cells; a number or a formula.");
+    add_parameter("Lower corner",
+                  lower_corner,
+                  "The corner from which the cells are laid out; formulas, "
+                  "separated by commas.");
+    add_parameter("Upper corner",
+                  upper_corner,
+                  "The grid reaches at least to here. The body must stay inside "
+                  "while it moves.");
+    add_parameter("Balance",
+                  balance,
+                  "Whether the grid is distributed among the processes by the "
+                  "number of points, or else by the number of cells.");
+  }
+
+
+
+  Parameters::Body::Body()
+    : ParameterAcceptor("Body")
+  {
+    add_parameter("Shape",
+                  shape,
+                  "The body: box, ball, half_space, expression, rotate, "
+                  "translate, and +, -, & of these.");
+    add_parameter("Points per direction",
+                  n_points,
+                  "Material points per cell and direction.",
+                  prm,
+                  Patterns::Integer(1, 100));
+    add_parameter("Layout",
+                  layout,
+                  "Where the points of a cell are.",
+                  prm,
+                  Patterns::Selection("midpoint|Gauss"));
+    add_parameter("Regions",
+                  regions,
+                  "Regions with other numbers of points per direction, "
+                  "'number: shape', separated by semicolons.");
+    add_parameter("Undamageable",
+                  undamageable,
+                  "Shapes in which the history field stays as it is, separated "
+                  "by semicolons.");
+    add_parameter("Boundaries",
+                  boundaries,
+                  "Parts of the surface that get boundary points, 'name: "
+                  "condition' in x, y(, z) and the normal nx, ny(, nz), "
+                  "separated by semicolons.");
+    add_parameter("Boundary point spacing",
+                  spacing,
+                  "Largest distance of boundary points; a formula.");
+  }
+
+
+
+  Parameters::Notch::Notch()
+    : ParameterAcceptor("Notch")
+  {
+    add_parameter("Type",
+                  type,
+                  "An initial crack: none (or a gap in the shape of the body), "
+                  "slit (the points know from the start on which side they "
+                  "are), or damage (a large history field in a band).",
+                  prm,
+                  Patterns::Selection("none|slit|damage"));
+    add_parameter("Plane point", plane_point, "A point on the slit.");
+    add_parameter("Plane normal", plane_normal, "Normal of the slit.");
+    add_parameter("Region",
+                  region,
+                  "The shape in which the slit is open, or the damaged band.");
+    add_parameter("Label width",
+                  label_width,
+                  "How far from the slit, and ahead of its tip, points know "
+                  "their side; a formula.");
+    add_parameter("Damage width",
+                  damage_width,
+                  "How far from the slit points make functions separable; a "
+                  "formula.");
+    add_parameter("History factor",
+                  history_factor,
+                  "History field in the damaged band, in units of Gc/(2l).",
+                  prm,
+                  not_negative);
+  }
+
+
+
+  Parameters::Material::Material()
+    : ParameterAcceptor("Material")
+  {
+    add_parameter("Model",
+                  model,
+                  "The stored energy.",
+                  prm,
+                  Patterns::Selection(material_names()));
+    add_parameter("Energy split",
+                  split,
+                  "Which part of the energy is degraded by damage.",
+                  prm,
+                  Patterns::Selection(energy_split_names()));
+    add_parameter("Young's modulus",
+                  young_modulus,
+                  "Force per area.",
+                  prm,
+                  positive);
+    add_parameter("Poisson's ratio",
+                  poisson_ratio,
+                  "Between -1 and 1/2.",
+                  prm,
+                  Patterns::Double(-0.999, 0.4999));
+  }
+
+
+
+  Parameters::Damage::Damage()
+    : ParameterAcceptor("Damage")
+  {
+    add_parameter("Enable", enable, "Whether there is damage at all.");
+    add_parameter("Fracture energy",
+                  fracture_energy,
+                  "The energy release rate Gc, energy per area.",
+                  prm,
+                  positive);
+    add_parameter("Length scale",
+                  length_scale,
+                  "The length scale l of the phase field; a formula.");
+    add_parameter("Residual stiffness",
+                  residual_stiffness,
+                  "The floor k of g(d) = max((1-d)^2, k).",
+                  prm,
+                  Patterns::Double(0., 0.5));
+    add_parameter("Boundary term",
+                  boundary_term,
+                  "Whether the damage equation has the term that Nitsche's "
+                  "method for the displacement entails.");
+  }
+
+
+
+  Parameters::Extension::Extension()
+    : ParameterAcceptor("Extension")
+  {
+    add_parameter("Threshold",
+                  threshold,
+                  "Functions of which no more than this fraction is occupied "
+                  "are extrapolated from others.",
+                  prm,
+                  Patterns::Double(0., 0.9));
+  }
+
+
+
+  Parameters::Nitsche::Nitsche()
+    : ParameterAcceptor("Nitsche")
+  {
+    add_parameter("Penalty factor",
+                  penalty_factor,
+                  "The penalty beta in units of (K+4G/3)/h.",
+                  prm,
+                  positive);
+    add_parameter("Penalty",
+                  penalty,
+                  "The penalty beta, force per volume; zero takes the factor "
+                  "above.",
+                  prm,
+                  not_negative);
+  }
+
+
+
+  Parameters::Loading::Loading()
+    : ParameterAcceptor("Loading")
+  {
+    add_parameter("Conditions",
+                  conditions,
+                  "Prescribed displacements, 'boundary.component = formula' in "
+                  "x, y(, z) and the load u, separated by semicolons.");
+    add_parameter("Increments",
+                  increments,
+                  "Table of 'load: increment': up to this load, it grows by "
+                  "these increments.");
+    add_parameter("Driven boundary",
+                  driven,
+                  "Boundary and component whose force is the third column of "
+                  "history.csv.");
+    add_parameter("Minimum increment",
+                  minimum_increment,
+                  "Smallest increment to try when steps fail.",
+                  prm,
+                  positive);
+    add_parameter("Easy passes",
+                  easy_passes,
+                  "An increment that was cut back grows again after a step with "
+                  "no more passes than this.",
+                  prm,
+                  Patterns::Integer(0));
+    add_parameter("Stop below",
+                  stop_below,
+                  "Stop when the force has fallen below this fraction of its "
+                  "peak; zero for never.",
+                  prm,
+                  fraction);
+  }
+
+
+
+  Parameters::Staggered::Staggered()
+    : ParameterAcceptor("Staggered")
+  {
+    add_parameter("Maximum passes",
+                  maximum_passes,
+                  "One is the single pass of Miehe et al. (2010); with more, "
+                  "passes are repeated until they converge.",
+                  prm,
+                  Patterns::Integer(1));
+    add_parameter("Tolerance",
+                  tolerance,
+                  "Change of the damage at which passes have converged.",
+                  prm,
+                  positive);
+    add_parameter("Maximum relaxation",
+                  relaxation,
+                  "Largest factor of over-relaxation of the damage; one for "
+                  "none.",
+                  prm,
+                  Patterns::Double(1., 1.95));
+  }
+
+
+
+  Parameters::Newton::Newton()
+    : ParameterAcceptor("Newton")
+  {
+    add_parameter("Tolerance",
+                  tolerance,
+                  "For the residual, relative to the largest force so far.",
+                  prm,
+                  Patterns::Double(1e-15, 1e-2));
+    add_parameter("Intermediate tolerance",
+                  intermediate_tolerance,
+                  "The same, as long as the staggered passes have not "
+                  "converged.",
+                  prm,
+                  Patterns::Double(1e-15, 1e-1));
+    add_parameter("Maximum iterations",
+                  maximum_iterations,
+                  "Iterations after which a step counts as failed.",
+                  prm,
+                  Patterns::Integer(1));
+    add_parameter("Maximum bisections",
+                  maximum_bisections,
+                  "Number of times the line search halves a step.",
+                  prm,
+                  Patterns::Integer(0, 30));
+  }
+
+
+
+  Parameters::Linear::Linear()
+    : ParameterAcceptor("Linear solver")
+  {
+    add_parameter("Displacement",
+                  displacement,
+                  "Method for the displacement.",
+                  prm,
+                  Patterns::Selection(LinearSolver::method_names()));
+    add_parameter("Damage",
+                  damage,
+                  "Method for the damage.",
+                  prm,
+                  Patterns::Selection(LinearSolver::method_names()));
+    add_parameter("Refresh iterations",
+                  refresh_iterations,
+                  "Iterations after which an old factorisation or hierarchy is "
+                  "made anew.",
+                  prm,
+                  Patterns::Integer(1));
+    add_parameter("Maximum iterations",
+                  maximum_iterations,
+                  "Iterations after which a linear solve counts as failed.",
+                  prm,
+                  Patterns::Integer(1));
+  }
+
+
+
+  Parameters::Partition::Partition()
+    : ParameterAcceptor("Crack partition")
+  {
+    add_parameter("Enable",
+                  enable,
+                  "Whether diffusive cracks become discrete (PF-MPM-DFG) or "
+                  "stay diffusive (PF-MPM).");
+    add_parameter("Damage threshold",
+                  damage_threshold,
+                  "The damage d_cr beyond which functions are separable.",
+                  prm,
+                  Patterns::Double(0.05, 0.999));
+    add_parameter("Closure damage",
+                  closure_damage,
+                  "The damage that makes a ridge for the closure of gaps.",
+                  prm,
+                  Patterns::Double(0.05, 0.999));
+    add_parameter("Clear ridge ratio",
+                  frozen_ratio,
+                  "Ratio of principal variances below which sides are settled.",
+                  prm,
+                  fraction);
+    add_parameter("Ridge radius",
+                  ridge_radius,
+                  "Radius, in cells, in which the ridge's shape is determined.",
+                  prm,
+                  Patterns::Integer(2, 10));
+    add_parameter("Maximum passes",
+                  maximum_passes,
+                  "Staggered passes after which the partition of a step stays "
+                  "as it is.",
+                  prm,
+                  Patterns::Integer(1));
+  }
+
+
+
+  Parameters::Output::Output()
+    : ParameterAcceptor("Output")
+  {
+    add_parameter("Directory", directory, "Where all files go.");
+    add_parameter("Interval",
+                  interval,
+                  "Number of load steps between two outputs of the fields; zero "
+                  "for none.",
+                  prm,
+                  Patterns::Integer(0));
+  }
+
+
+
+  double
+  Parameters::number(const std::string &parameter,
+                     const std::string &formula) const
+  {
+    // The cell size and the length scale are formulas themselves, in which the
+    // other is not known.
+    std::map<std::string, double> constants;
+    if (parameter != "Background grid/Cell size")
+      {
+        constants["h"] = cell_size();
+        if (parameter != "Damage/Length scale")
+          constants["l"] = length_scale();
+      }
+    double result = 0.;
+    try
+      {
+        result = Expression(formula, {}, constants).value({});
+      }
+    catch (const std::exception &)
+      {
+        AssertThrow(false,
+                    ExcParameter(parameter,
+                                 formula,
+                                 "a number or a formula of one"));
+      }
+    AssertThrow(std::isfinite(result),
+                ExcParameter(parameter, formula, "finite"));
+    return result;
+  }
+
+
+
+  double
+  Parameters::cell_size() const
+  {
+    const double h = number("Background grid/Cell size", grid.cell_size);
+    AssertThrow(h > 0.,
+                ExcParameter("Background grid/Cell size",
+                             grid.cell_size,
+                             "positive"));
+    return h;
+  }
+
+
+
+  double
+  Parameters::length_scale() const
+  {
+    const double l = number("Damage/Length scale", damage.length_scale);
+    AssertThrow(l > 0.,
+                ExcParameter("Damage/Length scale",
+                             damage.length_scale,
+                             "positive"));
+    return l;
+  }
+
+
+
+  template <int dim>
+  Point<dim>
+  Parameters::point(const std::string &parameter,
+                    const std::string &formulas) const
+  {
+    const auto entries = Utilities::split_string_list(formulas, ',');
+    AssertThrow(entries.size() == dim,
+                ExcParameter(parameter,
+                             formulas,
+                             "a list of " + std::to_string(dim) +
+                               " coordinates, separated by commas"));
+    Point<dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = number(parameter, entries[d]);
+    return result;
+  }
+
+
+
+  std::vector<std::pair<std::string, std::string>>
+  Parameters::boundaries() const
+  {
+    std::vector<std::pair<std::string, std::string>> result;
+    for (const auto &entry : Utilities::split_string_list(body.boundaries, ';'))
+      {
+        const auto colon = entry.find(':');
+        AssertThrow(colon != std::string::npos,
+                    ExcParameter("Body/Boundaries",
+                                 body.boundaries,
+                                 "a list of 'name: condition', separated by "
+                                 "semicolons"));
+        result.emplace_back(Utilities::trim(entry.substr(0, colon)),
+                            Utilities::trim(entry.substr(colon + 1)));
+      }
+    return result;
+  }
+
+
+
+  std::vector<std::pair<double, double>>
+  Parameters::increments() const
+  {
+    const std::string name = "Loading/Increments";
+    std::vector<std::pair<double, double>> result;
+    for (const auto &entry :
+         Utilities::split_string_list(loading.increments, ','))
+      {
+        const auto colon = entry.find(':');
+        AssertThrow(colon != std::string::npos,
+                    ExcParameter(name,
+                                 loading.increments,
+                                 "a list of 'load: increment', separated by "
+                                 "commas"));
+        const double until     = number(name, entry.substr(0, colon));
+        const double increment = number(name, entry.substr(colon + 1));
+        AssertThrow(increment > 0. &&
+                      until > (result.empty() ? 0. : result.back().first),
+                    ExcParameter(name,
+                                 loading.increments,
+                                 "made of growing loads and positive "
+                                 "increments"));
+        result.emplace_back(until, increment);
+      }
+    AssertThrow(!result.empty(),
+                ExcParameter(name, loading.increments, "a table of loads"));
+    return result;
+  }
+
+
+
+  std::pair<unsigned int, unsigned int>
+  Parameters::driven() const
+  {
+    const auto        dot  = loading.driven.rfind('.');
+    const std::string name = Utilities::trim(loading.driven.substr(0, dot));
+    const auto        list = boundaries();
+    for (unsigned int id = 0; id < list.size() && dot != std::string::npos; ++id)
+      if (list[id].first == name)
+        {
+          const auto component = std::string("xyz").find(
+            Utilities::trim(loading.driven.substr(dot + 1)));
+          if (component < grid.dimension)
+            return {id, static_cast<unsigned int>(component)};
+        }
+    AssertThrow(false,
+                ExcParameter("Loading/Driven boundary",
+                             loading.driven,
+                             "a boundary and a component, such as 'top.y'"));
+    return {};
+  }
+
+
+
+  void
+  Parameters::check() const
+  {
+    cell_size();
+    length_scale();
+    number("Body/Boundary point spacing", body.spacing);
+    number("Notch/Label width", notch.label_width);
+    number("Notch/Damage width", notch.damage_width);
+    increments();
+    driven();
+    std::vector<std::string> names;
+    for (const auto &boundary : boundaries())
+      names.push_back(boundary.first);
+    if (grid.dimension == 2)
+      {
+        const auto lower =
+          point<2>("Background grid/Lower corner", grid.lower_corner);
+        const auto upper =
+          point<2>("Background grid/Upper corner", grid.upper_corner);
+        AssertThrow(upper[0] > lower[0] && upper[1] > lower[1],
+                    ExcParameter("Background grid/Upper corner",
+                                 grid.upper_corner,
+                                 "larger than the lower corner in all "
+                                 "directions"));
+        DirichletConditions<2>(loading.conditions, names);
+      }
+    else
+      {
+        const auto lower =
+          point<3>("Background grid/Lower corner", grid.lower_corner);
+        const auto upper =
+          point<3>("Background grid/Upper corner", grid.upper_corner);
+        AssertThrow(upper[0] > lower[0] && upper[1] > lower[1] &&
+                      upper[2] > lower[2],
+                    ExcParameter("Background grid/Upper corner",
+                                 grid.upper_corner,
+                                 "larger than the lower corner in all "
+                                 "directions"));
+        DirichletConditions<3>(loading.conditions, names);
+      }
+    AssertThrow(!output.directory.empty(),
+                ExcParameter("Output/Directory", "", "the name of a folder"));
+  }
+
+
+
+  template <int dim>
+  typename StaggeredStep<dim>::AdditionalData
+  Parameters::step_data() const
+  {
+    typename StaggeredStep<dim>::AdditionalData data;
+    data.degree               = grid.degree;
+    data.extension_threshold  = extension.threshold;
+    data.damage               = damage.enable;
+    data.damage_boundary_term = damage.boundary_term;
+    data.max_passes           = staggered.maximum_passes;
+    data.tolerance            = staggered.tolerance;
+    data.max_relaxation       = staggered.relaxation;
+    // A slit is part of the model, whether or not cracks become discrete: then,
+    // without the transition, only what it labels at the start is separable.
+    data.partition            = partition.enable || notch.type == "slit";
+    data.max_partition_passes = partition.maximum_passes;
+    data.partition_data       = typename CrackPartition<dim>::AdditionalData(
+      partition.damage_threshold,
+      partition.closure_damage,
+      partition.frozen_ratio,
+      partition.ridge_radius);
+    data.partition_data.grow    = partition.enable;
+    data.newton                 = NewtonSolver::AdditionalData(
+      newton.tolerance, newton.maximum_iterations, newton.maximum_bisections);
+    data.intermediate_tolerance = newton.intermediate_tolerance;
+    data.displacement_solver.method =
+      LinearSolver::method_from_name(linear.displacement);
+    data.displacement_solver.refresh_iterations = linear.refresh_iterations;
+    data.displacement_solver.max_iterations     = linear.maximum_iterations;
+    data.damage_solver        = data.displacement_solver;
+    data.damage_solver.method = LinearSolver::method_from_name(linear.damage);
+    return data;
+  }
+
+
+
+  template Point<2>
+  Parameters::point<2>(const std::string &, const std::string &) const;
+  template Point<3>
+  Parameters::point<3>(const std::string &, const std::string &) const;
+  template typename StaggeredStep<2>::AdditionalData
+  Parameters::step_data<2>() const;
+  template typename StaggeredStep<3>::AdditionalData
+  Parameters::step_data<3>() const;
+} // namespace EBSMPM

@@ -1,0 +1,528 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/base/compat.h>
+#include <ebsmpm/base/exceptions.h>
+#include <ebsmpm/materials/elastic_constants.h>
+#include <ebsmpm/materials/make_material.h>
+#include <ebsmpm/output/grid_writer.h>
+#include <ebsmpm/output/point_writer.h>
+#include <ebsmpm/particles/generators.h>
+#include <ebsmpm/particles/notch.h>
+#include <ebsmpm/particles/shape_parser.h>
+#include <ebsmpm/solvers/simulation.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <deal.II/grid/grid_generator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace EBSMPM
+{
+  namespace internal
+  {
+    namespace SimulationImplementation
+    {
+      /** The constants that formulas of shapes may contain. */
+      std::map<std::string, double>
+      constants(const Parameters &parameters)
+      {
+        return {{"h", parameters.cell_size()}, {"l", parameters.length_scale()}};
+      }
+
+
+
+      std::vector<std::string>
+      boundary_names(const Parameters &parameters)
+      {
+        std::vector<std::string> names;
+        for (const auto &boundary : parameters.boundaries())
+          names.push_back(boundary.first);
+        return names;
+      }
+
+
+
+      template <int dim>
+      PointGenerator::FillData<dim>
+      fill_data(const Parameters &parameters)
+      {
+        PointGenerator::FillData<dim> data;
+        data.n_points_per_direction = parameters.body.n_points;
+        data.layout                 = parameters.body.layout == "Gauss" ?
+                                        PointGenerator::Layout::gauss :
+                                        PointGenerator::Layout::midpoint;
+        for (const auto &entry :
+             Utilities::split_string_list(parameters.body.regions, ';'))
+          {
+            const auto colon = entry.find(':');
+            AssertThrow(colon != std::string::npos,
+                        ExcParameter("Body/Regions",
+                                     parameters.body.regions,
+                                     "a list of 'number: shape', separated by "
+                                     "semicolons"));
+            const double n =
+              parameters.number("Body/Regions", entry.substr(0, colon));
+            AssertThrow(n >= 1. && n == std::floor(n),
+                        ExcParameter("Body/Regions",
+                                     parameters.body.regions,
+                                     "made of positive numbers of points and "
+                                     "shapes"));
+            data.regions.push_back(
+              {parse_shape<dim>(entry.substr(colon + 1), constants(parameters)),
+               static_cast<unsigned int>(n)});
+          }
+        for (const auto &entry :
+             Utilities::split_string_list(parameters.body.undamageable, ';'))
+          data.undamageable.push_back(
+            parse_shape<dim>(entry, constants(parameters)));
+        return data;
+      }
+    } // namespace SimulationImplementation
+  }   // namespace internal
+
+  using namespace internal::SimulationImplementation;
+
+
+
+  template <int dim>
+  Simulation<dim>::Simulation(const Parameters &parameters,
+                              const MPI_Comm    communicator,
+                              const Overwrite   overwrite,
+                              std::ostream *    screen)
+    : parameters(parameters)
+    , communicator(communicator)
+    , overwrite(overwrite)
+    , screen(screen)
+    , triangulation(communicator)
+    , body(parse_shape<dim>(parameters.body.shape, constants(parameters)))
+    , points(triangulation, mapping)
+    , boundary_points(triangulation, mapping)
+    , material(make_material<dim>(
+        parameters.material.model,
+        energy_split_from_name(parameters.material.split),
+        ElasticConstants::bulk_modulus(parameters.material.young_modulus,
+                                       parameters.material.poisson_ratio),
+        ElasticConstants::shear_modulus(parameters.material.young_modulus,
+                                        parameters.material.poisson_ratio)))
+    , degradation(parameters.damage.residual_stiffness)
+    , conditions(parameters.loading.conditions, boundary_names(parameters))
+    , pcout(screen != nullptr ? *screen : std::cout,
+            screen != nullptr &&
+              Utilities::MPI::this_mpi_process(communicator) == 0)
+    , timer(communicator,
+            pcout,
+            TimerOutput::never,
+            TimerOutput::wall_times)
+  {
+    penalty = parameters.nitsche.penalty > 0. ?
+                parameters.nitsche.penalty :
+                parameters.nitsche.penalty_factor *
+                  material->nitsche_stiffness() / parameters.cell_size();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::make_grid()
+  {
+    const double     h = parameters.cell_size();
+    const Point<dim> lower =
+      parameters.point<dim>("Background grid/Lower corner",
+                            parameters.grid.lower_corner);
+    const Point<dim> upper =
+      parameters.point<dim>("Background grid/Upper corner",
+                            parameters.grid.upper_corner);
+
+    // Every process knows all coarse cells, so have few of these: as many
+    // levels of refinement as leave a handful per direction. The grid becomes a
+    // little larger than asked for; empty cells cost nothing.
+    std::array<unsigned int, dim> n_cells;
+    unsigned int                  smallest = numbers::invalid_unsigned_int;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        n_cells[d] = static_cast<unsigned int>(
+          std::max(1., std::ceil((upper[d] - lower[d]) / h - 1e-6)));
+        smallest = std::min(smallest, n_cells[d]);
+      }
+    unsigned int level = 0;
+    while ((smallest >> (level + 1)) >= 4)
+      ++level;
+
+    std::vector<unsigned int> n_coarse(dim);
+    Point<dim>                end = lower;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        n_coarse[d] = (n_cells[d] + (1U << level) - 1) >> level;
+        end[d] += h * (n_coarse[d] << level);
+      }
+    GridGenerator::subdivided_hyper_rectangle(triangulation,
+                                              n_coarse,
+                                              lower,
+                                              end);
+    triangulation.refine_global(level);
+
+    if (parameters.grid.balance)
+      {
+        const auto data = fill_data<dim>(parameters);
+        repartition_by_weight(
+          triangulation,
+          [&](const typename Triangulation<dim>::cell_iterator &cell) {
+            return PointGenerator::count_points_in_cell<dim>(*body, data, cell);
+          });
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::make_points()
+  {
+    PointGenerator::fill<dim>(*body, fill_data<dim>(parameters), points);
+    AssertThrow(points.n_global() > 0,
+                ExcParameter("Body/Shape",
+                             parameters.body.shape,
+                             "a body of which some part is in the grid"));
+
+    std::vector<PointGenerator::BoundarySelection> selections;
+    for (const auto &boundary : parameters.boundaries())
+      selections.push_back(
+        {static_cast<types::boundary_id>(selections.size()), boundary.second});
+    PointGenerator::boundary<dim>(*body,
+                                  selections,
+                                  parameters.number(
+                                    "Body/Boundary point spacing",
+                                    parameters.body.spacing),
+                                  boundary_points);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::make_notch()
+  {
+    const auto &notch = parameters.notch;
+    if (notch.type == "slit")
+      {
+        Notch::Slit<dim> slit;
+        slit.point = parameters.point<dim>("Notch/Plane point",
+                                           notch.plane_point);
+        slit.normal =
+          parameters.point<dim>("Notch/Plane normal", notch.plane_normal);
+        AssertThrow(slit.normal.norm() > 0.,
+                    ExcParameter("Notch/Plane normal",
+                                 notch.plane_normal,
+                                 "a vector that is not zero"));
+        slit.open_region =
+          parse_shape<dim>(notch.region, constants(parameters));
+        slit.label_width =
+          parameters.number("Notch/Label width", notch.label_width);
+        slit.damage_width =
+          parameters.number("Notch/Damage width", notch.damage_width);
+        Notch::label_slit<dim>(slit, points, boundary_points);
+      }
+    else if (notch.type == "damage")
+      Notch::initial_history<dim>(
+        *parse_shape<dim>(notch.region, constants(parameters)),
+        notch.history_factor * parameters.damage.fracture_energy /
+          (2. * parameters.length_scale()),
+        points);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::open_files()
+  {
+    std::vector<std::string> columns;
+    const std::string        components = "xyz";
+    for (const auto &name : boundary_names(parameters))
+      for (unsigned int d = 0; d < dim; ++d)
+        columns.push_back("force_" + name + "_" + components[d]);
+    for (const auto &name : {"elastic_energy",
+                             "fracture_energy",
+                             "penalty_energy",
+                             "crack_length",
+                             "passes",
+                             "newton_iterations",
+                             "linear_iterations",
+                             "factorisations",
+                             "bisections",
+                             "damage_change",
+                             "residual",
+                             "independent_functions",
+                             "deficient_functions",
+                             "twin_functions",
+                             "largest_extension_weight",
+                             "wall_time"})
+      columns.push_back(name);
+
+    const std::string &directory = parameters.output.directory;
+    make_directory(directory, communicator);
+    history = std::make_unique<HistoryWriter>(directory + "/history.csv",
+                                              columns,
+                                              communicator,
+                                              overwrite);
+    point_series =
+      std::make_unique<VTUSeries>(directory, "points", communicator, overwrite);
+    grid_series =
+      std::make_unique<VTUSeries>(directory, "grid", communicator, overwrite);
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        log_file.open(directory + "/log.txt");
+        std::ofstream echo(directory + "/parameters.prm");
+        ParameterAcceptor::prm.print_parameters(echo, ParameterHandler::Text);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::write_header()
+  {
+    std::ostringstream text;
+    text << "ebsmpm " << EBSMPM_VERSION << ", "
+         << Utilities::MPI::n_mpi_processes(communicator) << " process(es), "
+         << dim << "d\n"
+         << "  grid:            " << triangulation.n_global_active_cells()
+         << " cells of size " << parameters.cell_size() << ", degree "
+         << parameters.grid.degree << '\n'
+         << "  material points: " << points.n_global() << '\n'
+         << "  boundary points: " << boundary_points.n_global() << '\n'
+         << "  functions:       "
+         << "see history.csv\n"
+         << "  Nitsche penalty: " << penalty << " = "
+         << penalty * parameters.cell_size() / material->nitsche_stiffness()
+         << " (K+4G/3)/h\n"
+         << "  results in:      " << parameters.output.directory << '\n';
+    pcout << text.str() << std::flush;
+    if (log_file)
+      log_file << text.str() << std::flush;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::write_step(
+    const unsigned int                         n_step,
+    const double                               load,
+    const typename StaggeredStep<dim>::Report &report)
+  {
+    const auto   reactions = step->reactions();
+    const auto   energies  = step->energies();
+    const double area      = step->crack_area();
+    const auto & space     = step->displacement_space();
+    const auto   driven    = parameters.driven();
+
+    std::vector<double> values;
+    for (unsigned int id = 0; id < parameters.boundaries().size(); ++id)
+      {
+        const auto found = reactions.find(id);
+        for (unsigned int d = 0; d < dim; ++d)
+          values.push_back(found == reactions.end() ? 0. : found->second[d]);
+      }
+    last_force = values[dim * driven.first + driven.second];
+    peak_force = std::max(peak_force, std::abs(last_force));
+    for (const double value :
+         {energies.elastic,
+          area * parameters.damage.fracture_energy,
+          energies.penalty,
+          area,
+          1. * report.passes,
+          1. * report.newton_iterations,
+          1. * report.linear_iterations,
+          1. * report.refreshes,
+          1. * report.bisections,
+          report.damage_change,
+          report.residual,
+          1. * space.n_independent(),
+          1. * space.n_deficient(),
+          1. * space.n_twins(),
+          step->extension_report().max_lebesgue,
+          wall_clock.wall_time()})
+      values.push_back(value);
+    history->write(n_step, load, last_force, values);
+
+    std::ostringstream text;
+    text << "step " << std::setw(5) << n_step << "  load " << std::setw(11)
+         << load << "  force " << std::setw(13) << last_force << "  passes "
+         << std::setw(3) << report.passes << "  newton " << std::setw(3)
+         << report.newton_iterations << "  linear " << std::setw(4)
+         << report.linear_iterations << "  new " << std::setw(2)
+         << report.refreshes << "  twins " << std::setw(5) << space.n_twins()
+         << (report.indefinite ? "  (indefinite tangent)" : "") << '\n';
+    pcout << text.str() << std::flush;
+    if (log_file)
+      log_file << text.str() << std::flush;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::write_fields(const unsigned int n_step, const double load)
+  {
+    TimerOutput::Scope scope(timer, "output");
+
+    PointWriter<dim> point_writer;
+    using Particle = typename PointWriter<dim>::Particle;
+    const auto view = [](Particle &particle) {
+      return MaterialPoint<dim>(particle.get_properties());
+    };
+    point_writer.add_vector("displacement", [view](Particle &p) {
+      return view(p).displacement();
+    });
+    point_writer.add_scalar("damage",
+                            [view](Particle &p) { return view(p).damage(); });
+    point_writer.add_scalar("history",
+                            [view](Particle &p) { return view(p).history(); });
+    point_writer.add_vector("side",
+                            [view](Particle &p) { return view(p).side(); });
+    point_writer.add_scalar("J", [view](Particle &p) {
+      return determinant(view(p).deformation_gradient());
+    });
+    point_writer.add_scalar("volume", [view](Particle &p) {
+      return view(p).reference_volume();
+    });
+    point_writer.write(points.handler(), *point_series, n_step, load);
+
+    // On the grid, there are the increment and the damage of the step, as the
+    // points do not yet know them.
+    GridWriter<dim> grid_writer(parameters.grid.degree);
+    using Cell = typename GridWriter<dim>::CellIterator;
+    grid_writer.add_scalar("damage",
+                           [&](const Cell &cell, std::vector<double> &c) {
+                             step->cell_damage(cell, c);
+                           });
+    grid_writer.write(triangulation, *grid_series, n_step, load);
+  }
+
+
+
+  template <int dim>
+  std::pair<double, double>
+  Simulation<dim>::table_entry(const double load) const
+  {
+    const auto table = parameters.increments();
+    for (const auto &entry : table)
+      if (load < entry.first * (1. - 1e-12))
+        return {entry.second, entry.first};
+    return {0., table.back().first};
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::run()
+  {
+    open_files();
+    {
+      TimerOutput::Scope scope(timer, "set-up");
+      make_grid();
+      make_points();
+      make_notch();
+      step = std::make_unique<StaggeredStep<dim>>(
+        points,
+        boundary_points,
+        *material,
+        degradation,
+        parameters.damage.fracture_energy,
+        parameters.length_scale(),
+        penalty,
+        parameters.step_data<dim>(),
+        &timer);
+    }
+    write_header();
+
+    double       load           = 0.;
+    double       last_increment = 0.;
+    double       allowed        = std::numeric_limits<double>::max();
+    unsigned int n_step         = 0;
+    std::string  failure;
+    for (auto entry = table_entry(load); entry.first > 0.;
+         entry      = table_entry(load))
+      {
+        // Up to the end of the interval, without a sliver before it.
+        double increment = std::min(entry.first, allowed);
+        if (load + increment > entry.second - 1e-6 * increment)
+          increment = entry.second - load;
+        AssertThrow(increment >= parameters.loading.minimum_increment,
+                    ExcStepFailure(n_step + 1, increment, failure));
+        const double next = load + increment;
+
+        typename StaggeredStep<dim>::Report report;
+        try
+          {
+            report = step->solve(conditions,
+                                 next,
+                                 last_increment > 0. ?
+                                   increment / last_increment :
+                                   0.);
+          }
+        catch (const ExcSolverFailure &exception)
+          {
+            std::ostringstream message;
+            exception.print_info(message);
+            failure = Utilities::trim(message.str());
+            allowed = 0.5 * increment;
+
+            std::ostringstream text;
+            text << "step " << std::setw(5) << n_step + 1 << "  load "
+                 << std::setw(11) << next << "  failed: " << failure
+                 << " Trying increment " << allowed << ".\n";
+            pcout << text.str() << std::flush;
+            if (log_file)
+              log_file << text.str() << std::flush;
+            AssertThrow(allowed >= parameters.loading.minimum_increment,
+                        ExcStepFailure(n_step + 1, increment, failure));
+            continue;
+          }
+
+        ++n_step;
+        load           = next;
+        last_increment = increment;
+        write_step(n_step, load, report);
+        step->accept();
+        if (parameters.output.interval > 0 &&
+            n_step % parameters.output.interval == 0)
+          write_fields(n_step, load);
+        if (report.passes <= parameters.loading.easy_passes &&
+            allowed < std::numeric_limits<double>::max())
+          allowed = 2. * allowed;
+        if (parameters.loading.stop_below > 0. &&
+            std::abs(last_force) < parameters.loading.stop_below * peak_force)
+          break;
+      }
+    if (parameters.output.interval > 0 &&
+        n_step % parameters.output.interval != 0)
+      write_fields(n_step, load);
+
+    timer.print_summary();
+    if (log_file)
+      log_file << "finished after " << wall_clock.wall_time() << " s\n";
+  }
+
+
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace EBSMPM

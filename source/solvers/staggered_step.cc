@@ -1,0 +1,627 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/assembly/supports.h>
+#include <ebsmpm/base/exceptions.h>
+#include <ebsmpm/solvers/staggered_step.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+namespace EBSMPM
+{
+  template <int dim>
+  StaggeredStep<dim>::StaggeredStep(MaterialPoints<dim> & points,
+                                    BoundaryPoints<dim> & boundary_points,
+                                    const Material<dim> & material,
+                                    const Degradation &   degradation,
+                                    const double          fracture_energy,
+                                    const double          length_scale,
+                                    const double          penalty,
+                                    const AdditionalData &data,
+                                    TimerOutput *         timer_)
+    : material_points(points)
+    , boundary_material_points(boundary_points)
+    , degradation(degradation)
+    , data(data)
+    , own_timer(timer_ != nullptr ?
+                  nullptr :
+                  std::make_unique<TimerOutput>(std::cout,
+                                                TimerOutput::never,
+                                                TimerOutput::wall_times))
+    , timer(timer_ != nullptr ? timer_ : own_timer.get())
+    , u_space(points.triangulation(), data.degree)
+    , d_space(points.triangulation(), data.degree)
+    , partition(d_space, data.partition_data)
+    , u_system(material, degradation, penalty)
+    , d_system(fracture_energy, length_scale)
+    , newton(data.newton)
+    , u_solver(data.displacement_solver)
+    , d_solver(data.damage_solver)
+  {
+    u_solver.set_block_size(dim);
+    begin();
+
+    // All ids of all processes, by way of the largest one.
+    unsigned int n_ids = 0;
+    for (const auto id : boundary.boundary_id)
+      n_ids = std::max(n_ids, id + 1U);
+    n_ids = Utilities::MPI::max(n_ids, u_space.communicator());
+    for (unsigned int id = 0; id < n_ids; ++id)
+      boundary_ids.push_back(id);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::begin()
+  {
+    TimerOutput::Scope scope(*timer, "points and spaces");
+
+    points.reinit(material_points.handler(), d_space.lattice());
+    boundary_points.reinit(boundary_material_points.handler(),
+                           d_space.lattice());
+
+    state.resize(points.n_points());
+    labels.resize(points.n_points());
+    current_volume.resize(points.n_points());
+    for (unsigned int q = 0; q < points.n_points(); ++q)
+      {
+        const MaterialPoint<dim> point(points.properties(q));
+        state.volume[q]   = point.reference_volume();
+        state.F[q]        = point.deformation_gradient();
+        current_volume[q] = determinant(state.F[q]) * state.volume[q];
+      }
+    boundary.resize(boundary_points.n_points());
+    boundary_labels.resize(boundary_points.n_points());
+    for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
+      {
+        const BoundaryPoint<dim> point(boundary_points.properties(q));
+        boundary.area[q]         = point.reference_area();
+        boundary.normal[q]       = point.reference_normal();
+        boundary.displacement[q] = point.displacement();
+        boundary.F[q]            = point.deformation_gradient();
+        boundary.boundary_id[q]  = point.boundary_id();
+      }
+
+    // The damage sees both sides of a crack.
+    Snapshot old_damage;
+    if (d_field.size() > 0)
+      take_snapshot(d_space, d_field, old_damage);
+    typename SplineSpace<dim>::SupportTable supports;
+    add_supports<dim>(points, current_volume, {}, d_space, supports);
+    add_supports<dim>(boundary_points, {}, {}, d_space, supports);
+    d_space.reinit(supports, data.extension_threshold);
+    make_extension_constraints(d_space, d_constraints);
+    if (d_system.reinit(
+          points, boundary_points, d_space, d_constraints, {}, {}))
+      d_solver.clear();
+    d_field = d_system.make_vector();
+    if (old_damage.field.size() > 0)
+      transfer<1>(old_damage, d_space, d_field);
+
+    space_is_current = false;
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::build_displacement_space()
+  {
+    TimerOutput::Scope scope(*timer, "points and spaces");
+
+    Snapshot old;
+    if (u_increment.size() > 0)
+      take_snapshot(u_space, u_increment, old);
+
+    typename SplineSpace<dim>::SupportTable supports;
+    add_supports<dim>(
+      points, current_volume, partition.patterns(), u_space, supports);
+    add_supports<dim>(
+      boundary_points, {}, partition.boundary_patterns(), u_space, supports);
+    if (data.partition)
+      partition.add_sides(supports);
+    u_space.reinit(supports, data.extension_threshold);
+    u_extension = make_extension_constraints(u_space, u_constraints);
+    if (u_system.reinit(points,
+                        boundary_points,
+                        u_space,
+                        u_constraints,
+                        partition.patterns(),
+                        partition.boundary_patterns()))
+      {
+        u_solver.clear();
+        set_near_null_space();
+      }
+
+    u_increment = u_system.make_vector();
+    if (old.field.size() > 0)
+      transfer<dim>(old, u_space, u_increment);
+    space_is_current = true;
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::set_near_null_space()
+  {
+    const IndexSet rows = u_system.matrix().locally_owned_range_indices();
+    const unsigned int n_modes = dim * (dim + 1) / 2;
+    std::vector<LA::Vector> modes(
+      n_modes, LA::Vector(rows, u_space.communicator()));
+
+    const auto &owned = u_space.locally_owned_independent();
+    if (owned.n_elements() > 0)
+      {
+        const auto first = owned.nth_index_in_set(0);
+        for (const auto &entry : u_space.functions())
+          {
+            if (!owned.is_element(entry.second.index))
+              continue;
+            const Point<dim> x =
+              u_space.lattice().greville_point(entry.first, data.degree);
+            const unsigned int i = dim * (entry.second.index - first);
+            for (unsigned int a = 0; a < dim; ++a)
+              modes[a].begin()[i + a] = 1.;
+            for (unsigned int a = 0, m = dim; a < dim; ++a)
+              for (unsigned int b = a + 1; b < dim; ++b, ++m)
+                {
+                  modes[m].begin()[i + a] = -x[b];
+                  modes[m].begin()[i + b] = x[a];
+                }
+          }
+      }
+    u_solver.set_near_null_space(modes);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::take_snapshot(const SplineSpace<dim> &space,
+                                    const LA::FieldVector & field,
+                                    Snapshot &              snapshot)
+  {
+    snapshot.functions     = space.functions();
+    snapshot.n_independent = space.n_independent();
+    snapshot.field         = field;
+    snapshot.field.update_ghost_values();
+  }
+
+
+
+  template <int dim>
+  template <int n_components>
+  void
+  StaggeredStep<dim>::transfer(const Snapshot &        snapshot,
+                               const SplineSpace<dim> &space,
+                               LA::FieldVector &       field)
+  {
+    // Functions that were dependent or absent start from zero: this is only an
+    // initial guess.
+    field.zero_out_ghost_values();
+    const auto &owned = space.locally_owned_independent();
+    for (const auto &entry : space.functions())
+      {
+        if (!owned.is_element(entry.second.index))
+          continue;
+        const auto found = snapshot.functions.find(entry.first);
+        if (found == snapshot.functions.end() ||
+            found->second.index >= snapshot.n_independent)
+          continue;
+        for (unsigned int a = 0; a < n_components; ++a)
+          field(n_components * entry.second.index + a) =
+            snapshot.field(n_components * found->second.index + a);
+      }
+  }
+
+
+
+  template <int dim>
+  typename StaggeredStep<dim>::Report
+  StaggeredStep<dim>::solve(const DirichletConditions<dim> &conditions,
+                            const double                    load,
+                            const double                    guess_factor)
+  {
+    Report report;
+
+    // Everything that is iterated starts from what the points say.
+    for (unsigned int q = 0; q < points.n_points(); ++q)
+      {
+        const MaterialPoint<dim> point(points.properties(q));
+        state.damage[q]       = point.damage();
+        state.history[q]      = point.history();
+        labels.side[q]        = point.side();
+        labels.frozen[q]      = point.label_frozen() != 0.;
+        labels.peak_damage[q] = point.peak_damage();
+      }
+    for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
+      {
+        const BoundaryPoint<dim> point(boundary_points.properties(q));
+        boundary.damage[q]             = point.damage();
+        boundary_labels.side[q]        = point.side();
+        boundary_labels.frozen[q]      = point.label_frozen() != 0.;
+        boundary_labels.peak_damage[q] = point.peak_damage();
+      }
+    conditions.apply(load, boundary_points, boundary);
+
+    const auto update_partition = [&]() {
+      TimerOutput::Scope scope(*timer, "crack partition");
+      return partition.update(points,
+                              boundary_points,
+                              current_volume,
+                              state.damage,
+                              labels,
+                              boundary_labels);
+    };
+    const bool changed = data.partition && update_partition();
+    if (changed || !space_is_current)
+      build_displacement_space();
+
+    u_increment.zero_out_ghost_values();
+    u_increment = 0.;
+    if (guess_factor != 0. && last_increment.field.size() > 0)
+      {
+        transfer<dim>(last_increment, u_space, u_increment);
+        u_increment *= guess_factor;
+      }
+
+    const bool iterate         = data.damage && data.max_passes > 1;
+    double     relaxation      = 1.;
+    double     previous_change = std::numeric_limits<double>::max();
+    bool       converged       = !iterate;
+
+    for (unsigned int pass = 1; pass <= data.max_passes; ++pass)
+      {
+        ++report.passes;
+        bool partition_changed = false;
+        if (data.damage)
+          {
+            report.damage_change = solve_damage(relaxation, report);
+
+            // Go further while this pays off, and carefully when it does not.
+            relaxation = (report.damage_change < previous_change) ?
+                           std::min(data.max_relaxation, relaxation + 0.1) :
+                           1.;
+            previous_change = report.damage_change;
+
+            if (data.partition && pass <= data.max_partition_passes &&
+                update_partition())
+              {
+                partition_changed = true;
+                ++report.rebuilds;
+                build_displacement_space();
+              }
+          }
+
+        converged = !iterate || (pass > 1 && !partition_changed &&
+                                 report.damage_change < data.tolerance);
+        solve_displacement(converged ? data.newton.tolerance :
+                                       data.intermediate_tolerance,
+                           report);
+
+        if (data.damage)
+          {
+            TimerOutput::Scope scope(*timer, "history");
+            u_system.driving_energy(state, u_increment, psi);
+            for (unsigned int q = 0; q < points.n_points(); ++q)
+              {
+                const MaterialPoint<dim> point(points.properties(q));
+                if (point.damageable() != 0.)
+                  state.history[q] = std::max(point.history(), psi[q]);
+              }
+          }
+        if (converged)
+          break;
+      }
+    AssertThrow(converged,
+                ExcSolverFailure("The staggered scheme did not converge in " +
+                                 std::to_string(data.max_passes) +
+                                 " passes: the damage still changes by " +
+                                 std::to_string(report.damage_change) + "."));
+    return report;
+  }
+
+
+
+  template <int dim>
+  double
+  StaggeredStep<dim>::solve_damage(const double relaxation, Report &report)
+  {
+    std::vector<double> driving;
+    if (data.damage_boundary_term)
+      u_system.boundary_driving(boundary, u_increment, driving);
+
+    LA::FieldVector rhs = d_system.make_vector();
+    {
+      TimerOutput::Scope scope(*timer, "assemble damage");
+      d_system.assemble(state, boundary, driving, rhs);
+    }
+    LA::FieldVector solution = d_field;
+    {
+      TimerOutput::Scope scope(*timer, "solve damage");
+      const auto         linear = solve_linear_system(
+        d_solver, d_system.matrix(), rhs, 1e-8, solution);
+      report.linear_iterations += linear.iterations;
+      report.refreshes += linear.refreshed;
+    }
+
+    // d <- d + omega (solution - d)
+    d_field.zero_out_ghost_values();
+    d_field.sadd(1. - relaxation, relaxation, solution);
+
+    std::vector<double> at_points, at_boundary_points;
+    d_system.evaluate(d_field, at_points, at_boundary_points);
+    double change = 0.;
+    for (unsigned int q = 0; q < points.n_points(); ++q)
+      {
+        const double d = std::min(1., std::max(0., at_points[q]));
+        change         = std::max(change, std::abs(d - state.damage[q]));
+        state.damage[q] = d;
+      }
+    for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
+      boundary.damage[q] = std::min(1., std::max(0., at_boundary_points[q]));
+    return Utilities::MPI::max(change, d_space.communicator());
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::solve_displacement(const double tolerance, Report &report)
+  {
+    NewtonSolver::Problem problem;
+    problem.residual = [&](const LA::FieldVector &x, LA::FieldVector &r) {
+      TimerOutput::Scope scope(*timer, "assemble residual");
+      u_system.assemble_residual(state, boundary, x, r);
+    };
+    problem.tangent = [&](const LA::FieldVector &x, LA::FieldVector &r) {
+      TimerOutput::Scope scope(*timer, "assemble tangent");
+      u_system.assemble_tangent(state, boundary, x, r);
+    };
+    problem.matrix = [&]() -> const LA::SparseMatrix & {
+      return u_system.matrix();
+    };
+
+    // The force of a broken specimen goes to zero, so compare with the largest
+    // one so far; before there is any, with the first residual.
+    double scale = largest_force;
+    if (scale == 0.)
+      {
+        LA::FieldVector residual = u_system.make_vector();
+        u_system.assemble_residual(state, boundary, u_increment, residual);
+        scale = residual.l2_norm();
+      }
+
+    TimerOutput::Scope scope(*timer, "Newton");
+    const auto         result =
+      newton.solve(problem, u_solver, scale, tolerance, u_increment);
+    report.newton_iterations += result.iterations;
+    report.linear_iterations += result.linear_iterations;
+    report.refreshes += result.refreshes;
+    report.bisections += result.bisections;
+    report.indefinite = report.indefinite || result.indefinite;
+    report.residual   = result.residual / (scale > 0. ? scale : 1.);
+    report.residuals  = result.residuals;
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::accept()
+  {
+    TimerOutput::Scope scope(*timer, "accept");
+
+    const auto convect = [](const Tensor<1, dim> &side,
+                            const Tensor<2, dim> &F_new,
+                            const Tensor<2, dim> &F_old) {
+      // Normals transform with F^{-T} of the motion during the step.
+      if (side.norm_square() == 0.)
+        return side;
+      const Tensor<1, dim> moved =
+        transpose(invert(F_new * invert(F_old))) * side;
+      return Tensor<1, dim>(moved / moved.norm());
+    };
+
+    for (const auto &reaction : reactions())
+      largest_force = std::max(largest_force, reaction.second.norm());
+
+    const auto update = u_system.update_points(state, u_increment);
+    for (unsigned int q = 0; q < points.n_points(); ++q)
+      {
+        MaterialPoint<dim> point(points.properties(q));
+        point.set_displacement(point.displacement() +
+                               update.displacement_increment[q]);
+        point.set_side(convect(labels.side[q], update.F[q], state.F[q]));
+        point.set_deformation_gradient(update.F[q]);
+        point.damage()       = state.damage[q];
+        point.history()      = state.history[q];
+        point.peak_damage()  = labels.peak_damage[q];
+        point.label_frozen() = labels.frozen[q];
+        auto particle        = points.particle(q);
+        particle->set_location(particle->get_location() +
+                               update.displacement_increment[q]);
+      }
+    const auto boundary_update = u_system.update_points(boundary, u_increment);
+    for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
+      {
+        BoundaryPoint<dim> point(boundary_points.properties(q));
+        point.set_displacement(point.displacement() +
+                               boundary_update.displacement_increment[q]);
+        point.set_side(convect(boundary_labels.side[q],
+                               boundary_update.F[q],
+                               boundary.F[q]));
+        point.set_deformation_gradient(boundary_update.F[q]);
+        point.damage()       = boundary.damage[q];
+        point.peak_damage()  = boundary_labels.peak_damage[q];
+        point.label_frozen() = boundary_labels.frozen[q];
+        auto particle        = boundary_points.particle(q);
+        particle->set_location(particle->get_location() +
+                               boundary_update.displacement_increment[q]);
+      }
+
+    take_snapshot(u_space, u_increment, last_increment);
+    material_points.sort();
+    boundary_material_points.sort();
+    begin();
+  }
+
+
+
+  template <int dim>
+  std::map<types::boundary_id, Tensor<1, dim>>
+  StaggeredStep<dim>::reactions() const
+  {
+    return u_system.reactions(state, boundary, u_increment, boundary_ids);
+  }
+
+
+
+  template <int dim>
+  typename DisplacementSystem<dim>::Energies
+  StaggeredStep<dim>::energies() const
+  {
+    return u_system.energies(state, boundary, u_increment);
+  }
+
+
+
+  template <int dim>
+  double
+  StaggeredStep<dim>::crack_area() const
+  {
+    return data.damage ? d_system.crack_area(state, d_field) : 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::cell_increment(
+    const typename Triangulation<dim>::active_cell_iterator &cell,
+    std::vector<double> &coefficients) const
+  {
+    cell_coefficients<dim>(
+      cell, u_space, u_constraints, u_increment, coefficients);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::cell_damage(
+    const typename Triangulation<dim>::active_cell_iterator &cell,
+    std::vector<double> &coefficients) const
+  {
+    cell_coefficients<1>(cell, d_space, d_constraints, d_field, coefficients);
+  }
+
+
+
+  template <int dim>
+  template <int n_components>
+  void
+  StaggeredStep<dim>::cell_coefficients(
+    const typename Triangulation<dim>::active_cell_iterator &cell,
+    const SplineSpace<dim> &                                 space,
+    const AffineConstraints<double> &                        constraints,
+    const LA::FieldVector &                                  field,
+    std::vector<double> &                                    coefficients)
+  {
+    field.update_ghost_values();
+    coefficients.clear();
+    const auto         index = space.lattice().cell_index(cell);
+    const unsigned int n     = space.n_functions_per_cell();
+    std::vector<double> values(n_components * n, 0.);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const auto *function =
+          space.find(space.cell_function(index, cell->level(), i));
+        // A function that only its twin is read of, or a cell without points.
+        if (function == nullptr)
+          return;
+        for (unsigned int a = 0; a < n_components; ++a)
+          if (function->index < space.n_independent())
+            values[n_components * i + a] =
+              field(n_components * function->index + a);
+          else
+            for (const auto &term :
+                 *constraints.get_constraint_entries(function->index))
+              values[n_components * i + a] +=
+                term.second * field(n_components * term.first + a);
+      }
+    coefficients.swap(values);
+  }
+
+
+
+  template <int dim>
+  const SplineSpace<dim> &
+  StaggeredStep<dim>::displacement_space() const
+  {
+    return u_space;
+  }
+
+
+
+  template <int dim>
+  const ExtensionReport &
+  StaggeredStep<dim>::extension_report() const
+  {
+    return u_extension;
+  }
+
+
+
+  template <int dim>
+  DisplacementSystem<dim> &
+  StaggeredStep<dim>::displacement_system()
+  {
+    return u_system;
+  }
+
+
+
+  template <int dim>
+  const MaterialState<dim> &
+  StaggeredStep<dim>::material_state() const
+  {
+    return state;
+  }
+
+
+
+  template <int dim>
+  const BoundaryState<dim> &
+  StaggeredStep<dim>::boundary_state() const
+  {
+    return boundary;
+  }
+
+
+
+  template <int dim>
+  const LA::FieldVector &
+  StaggeredStep<dim>::increment() const
+  {
+    return u_increment;
+  }
+
+
+
+  template class StaggeredStep<2>;
+  template class StaggeredStep<3>;
+} // namespace EBSMPM

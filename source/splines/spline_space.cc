@@ -1,0 +1,301 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/base/compat.h>
+#include <ebsmpm/splines/spline_space.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+
+namespace EBSMPM
+{
+  namespace internal
+  {
+    namespace SplineSpaceImplementation
+    {
+      /**
+       * Return the first index of this process in a range that is distributed
+       * rank by rank, and the size of the whole range.
+       */
+      std::pair<types::global_dof_index, types::global_dof_index>
+      rank_by_rank(const types::global_dof_index n_local,
+                   const MPI_Comm &              communicator)
+      {
+        types::global_dof_index first = 0;
+        const int               ierr  = MPI_Exscan(&n_local,
+                                    &first,
+                                    1,
+                                    DEAL_II_DOF_INDEX_MPI_TYPE,
+                                    MPI_SUM,
+                                    communicator);
+        AssertThrowMPI(ierr);
+        return {first, Utilities::MPI::sum(n_local, communicator)};
+      }
+    } // namespace SplineSpaceImplementation
+  }   // namespace internal
+
+
+
+  template <int dim>
+  SplineSpace<dim>::SplineSpace(const Triangulation<dim> &triangulation,
+                                const unsigned int        degree)
+    : mpi_communicator(get_mpi_communicator(triangulation))
+    , cell_lattice(triangulation)
+    , p(degree)
+    , directory(mpi_communicator)
+  {
+    Assert(degree >= 1 && degree <= 3, ExcIndexRange(degree, 1, 4));
+  }
+
+
+
+  template <int dim>
+  void
+  SplineSpace<dim>::reinit(const SupportTable &supports, const double threshold)
+  {
+    using namespace internal::SplineSpaceImplementation;
+    const unsigned int my_rank =
+      Utilities::MPI::this_mpi_process(mpi_communicator);
+
+    // Add up the shares. The owner is the lowest rank that sees the function.
+    table.clear();
+    table.reserve(supports.size());
+    for (const auto &entry : supports)
+      {
+        Function function;
+        function.owner    = my_rank;
+        function.fraction = entry.second.fraction;
+        function.side     = entry.second.side;
+        table.emplace(entry.first, function);
+      }
+    directory.clear();
+    table = directory.reduce(table, [](Function a, const Function &b) {
+      a.fraction += b.fraction;
+      a.owner = std::min(a.owner, b.owner);
+      return a;
+    });
+
+    // The totals are the same, bit by bit, on all processes that see a
+    // function, and hence so are the classes. The relative margin keeps
+    // fractions apart that differ by roundoff only.
+    for (auto &entry : table)
+      entry.second.category =
+        entry.first.part != 0 ? FunctionClass::twin :
+        entry.second.fraction > threshold * (1. + 1e-9) ?
+                                FunctionClass::standard :
+                                FunctionClass::deficient;
+
+    // Number what we own, in the order of the keys.
+    std::vector<Key> mine[2];
+    for (const auto &entry : table)
+      if (entry.second.owner == my_rank)
+        mine[entry.second.category == FunctionClass::standard ? 0 : 1]
+          .push_back(entry.first);
+    for (auto &keys : mine)
+      std::sort(keys.begin(), keys.end());
+
+    const auto independent = rank_by_rank(mine[0].size(), mpi_communicator);
+    const auto dependent   = rank_by_rank(mine[1].size(), mpi_communicator);
+    n_independent_functions = independent.second;
+    n_active_functions      = independent.second + dependent.second;
+    const types::global_dof_index first[2] = {
+      independent.first, n_independent_functions + dependent.first};
+
+    types::global_dof_index n_my_twins = 0;
+    std::vector<typename FunctionDirectory<dim, Function>::Entry> entries;
+    for (unsigned int c = 0; c < 2; ++c)
+      for (types::global_dof_index i = 0; i < mine[c].size(); ++i)
+        {
+          Function &function = table.at(mine[c][i]);
+          function.index     = first[c] + i;
+          n_my_twins += (function.category == FunctionClass::twin);
+          entries.push_back({mine[c][i], function});
+        }
+    n_twin_functions = Utilities::MPI::sum(n_my_twins, mpi_communicator);
+
+    // Tell the others, and learn about what others own.
+    directory.publish(entries);
+    std::vector<Key> theirs;
+    for (const auto &entry : table)
+      if (entry.second.owner != my_rank)
+        theirs.push_back(entry.first);
+    for (const auto &entry : directory.query(theirs))
+      table[entry.first].index = entry.second.index;
+
+    owned_independent = IndexSet(n_independent_functions);
+    owned_independent.add_range(first[0], first[0] + mine[0].size());
+    owned = IndexSet(n_active_functions);
+    owned.add_range(first[0], first[0] + mine[0].size());
+    owned.add_range(first[1], first[1] + mine[1].size());
+
+    std::vector<types::global_dof_index> indices;
+    indices.reserve(table.size());
+    for (const auto &entry : table)
+      indices.push_back(entry.second.index);
+    std::sort(indices.begin(), indices.end());
+    relevant = IndexSet(n_active_functions);
+    relevant.add_indices(indices.begin(), indices.end());
+    owned_independent.compress();
+    owned.compress();
+    relevant.compress();
+  }
+
+
+
+  template <int dim>
+  const typename SplineSpace<dim>::Function *
+  SplineSpace<dim>::find(const Key &key) const
+  {
+    const auto found = table.find(key);
+    return found == table.end() ? nullptr : &found->second;
+  }
+
+
+
+  template <int dim>
+  const typename SplineSpace<dim>::FunctionTable &
+  SplineSpace<dim>::functions() const
+  {
+    return table;
+  }
+
+
+
+  template <int dim>
+  typename SplineSpace<dim>::FunctionTable
+  SplineSpace<dim>::query(const std::vector<Key> &keys) const
+  {
+    return directory.query(keys);
+  }
+
+
+
+  template <int dim>
+  typename SplineSpace<dim>::Key
+  SplineSpace<dim>::cell_function(
+    const typename CartesianLattice<dim>::Index &cell_index,
+    const unsigned int                           level,
+    const unsigned int                           i) const
+  {
+    AssertIndexRange(i, n_functions_per_cell());
+    Key result;
+    result.level = level;
+    result.index = cell_index;
+    for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= p + 1)
+      result.index[d] += rest % (p + 1);
+    return result;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  SplineSpace<dim>::degree() const
+  {
+    return p;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  SplineSpace<dim>::n_functions_per_cell() const
+  {
+    return Utilities::pow(p + 1, dim);
+  }
+
+
+
+  template <int dim>
+  types::global_dof_index
+  SplineSpace<dim>::n_functions() const
+  {
+    return n_active_functions;
+  }
+
+
+
+  template <int dim>
+  types::global_dof_index
+  SplineSpace<dim>::n_independent() const
+  {
+    return n_independent_functions;
+  }
+
+
+
+  template <int dim>
+  types::global_dof_index
+  SplineSpace<dim>::n_deficient() const
+  {
+    return n_active_functions - n_independent_functions - n_twin_functions;
+  }
+
+
+
+  template <int dim>
+  types::global_dof_index
+  SplineSpace<dim>::n_twins() const
+  {
+    return n_twin_functions;
+  }
+
+
+
+  template <int dim>
+  const IndexSet &
+  SplineSpace<dim>::locally_owned_independent() const
+  {
+    return owned_independent;
+  }
+
+
+
+  template <int dim>
+  const IndexSet &
+  SplineSpace<dim>::locally_owned() const
+  {
+    return owned;
+  }
+
+
+
+  template <int dim>
+  const IndexSet &
+  SplineSpace<dim>::locally_relevant() const
+  {
+    return relevant;
+  }
+
+
+
+  template <int dim>
+  const CartesianLattice<dim> &
+  SplineSpace<dim>::lattice() const
+  {
+    return cell_lattice;
+  }
+
+
+
+  template <int dim>
+  const MPI_Comm &
+  SplineSpace<dim>::communicator() const
+  {
+    return mpi_communicator;
+  }
+
+
+
+  template class SplineSpace<1>;
+  template class SplineSpace<2>;
+  template class SplineSpace<3>;
+} // namespace EBSMPM
