@@ -17,11 +17,39 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 
 namespace
 {
   using namespace EBSMPM;
+
+  template <int dim>
+  void
+  run(const Parameters &parameters, const Overwrite overwrite)
+  {
+    // The timers of a simulation want to communicate when they go away, which
+    // they had better not do while an exception is on its way.
+    std::exception_ptr failure;
+    {
+      Simulation<dim> simulation(parameters,
+                                 MPI_COMM_WORLD,
+                                 overwrite,
+                                 &std::cout);
+      try
+        {
+          simulation.run();
+        }
+      catch (...)
+        {
+          failure = std::current_exception();
+        }
+    }
+    if (failure)
+      std::rethrow_exception(failure);
+  }
+
+
 
   void
   run(const CommandLine &command_line)
@@ -46,9 +74,9 @@ namespace
     const Overwrite overwrite =
       command_line.force ? Overwrite::yes : Overwrite::no;
     if (parameters.grid.dimension == 2)
-      Simulation<2>(parameters, MPI_COMM_WORLD, overwrite, &std::cout).run();
+      run<2>(parameters, overwrite);
     else
-      Simulation<3>(parameters, MPI_COMM_WORLD, overwrite, &std::cout).run();
+      run<3>(parameters, overwrite);
   }
 } // namespace
 

@@ -85,6 +85,7 @@ namespace EBSMPM
     points          = &points_;
     boundary_points = &boundary_points_;
     spline_space    = &space;
+    release_branches();
 
     functions = make_partitioner(space, constraints, 1);
     unknowns  = make_partitioner(space, constraints, dim);
@@ -125,6 +126,46 @@ namespace EBSMPM
   DisplacementSystem<dim>::make_vector() const
   {
     return LA::FieldVector(unknowns);
+  }
+
+
+
+  template <int dim>
+  void
+  DisplacementSystem<dim>::hold_branches(const MaterialState<dim> &state,
+                                         const BoundaryState<dim> &boundary,
+                                         const LA::FieldVector &   increment)
+  {
+    increment.update_ghost_values();
+    const auto hold = [&](const CellPoints<dim> &            cell_points,
+                          const PointGroups<dim> &           groups,
+                          const std::vector<Tensor<2, dim>> &F_n,
+                          std::vector<EnergyBranch> &        result) {
+      result.resize(cell_points.n_points());
+      evaluate_field<dim>(cell_points,
+                          groups,
+                          spline_space->lattice(),
+                          spline_space->degree(),
+                          increment,
+                          [&](const unsigned int q,
+                              const Tensor<1, dim> &,
+                              const std::array<Tensor<1, dim>, dim> &gradient) {
+                            result[q] = material.branch(
+                              deformation<dim>(gradient, F_n[q]));
+                          });
+    };
+    hold(*points, material_groups, state.F, branches);
+    hold(*boundary_points, boundary_groups, boundary.F, boundary_branches);
+  }
+
+
+
+  template <int dim>
+  void
+  DisplacementSystem<dim>::release_branches()
+  {
+    branches.clear();
+    boundary_branches.clear();
   }
 
 
@@ -252,10 +293,12 @@ namespace EBSMPM
         const Tensor<2, dim>  F   = deformation<dim>(gradient, F_n);
         const double          V   = state.volume[q];
         const double          g   = degradation.value(state.damage[q]);
+        const EnergyBranch    branch =
+          branches.empty() ? EnergyBranch::by_state : branches[q];
         if (task == Task::residual)
-          material.stress(F, g, response.P);
+          material.stress(F, g, response.P, branch);
         else
-          material.response(F, g, response);
+          material.response(F, g, response, branch);
 
         const Tensor<2, dim> stress = V * response.P * transpose(F_n);
         for (unsigned int i = 0; i < n; ++i)
@@ -357,7 +400,12 @@ namespace EBSMPM
         const Tensor<1, dim> &N   = boundary.normal[q];
         const double          A0  = boundary.area[q];
         const Tensor<1, dim>  w   = mismatch(boundary, q, value);
-        material.response(F, g, response);
+        material.response(F,
+                          g,
+                          response,
+                          boundary_branches.empty() ?
+                            EnergyBranch::by_state :
+                            boundary_branches[q]);
         const Tensor<1, dim> PN = response.P * N;
 
         Tensor<2, dim> S;
@@ -633,7 +681,10 @@ namespace EBSMPM
                           material.stress(deformation<dim>(gradient,
                                                            boundary.F[q]),
                                           degradation.value(boundary.damage[q]),
-                                          P);
+                                          P,
+                                          boundary_branches.empty() ?
+                                            EnergyBranch::by_state :
+                                            boundary_branches[q]);
                           const auto w    = mismatch(boundary, q, value);
                           const auto flux = boundary.area[q] *
                                             (P * boundary.normal[q] - beta * w);

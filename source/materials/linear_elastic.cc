@@ -94,9 +94,22 @@ namespace EBSMPM
 
   template <int dim>
   bool
-  LinearElastic<dim>::volumetric_part_degrades(const double theta) const
+  LinearElastic<dim>::volumetric_part_degrades(const double       theta,
+                                    const EnergyBranch branch) const
   {
-    return this->split == EnergySplit::none || theta >= 0.;
+    if (this->split == EnergySplit::none)
+      return true;
+    return branch == EnergyBranch::by_state ? theta >= 0. :
+                                              branch == EnergyBranch::expanded;
+  }
+
+
+
+  template <int dim>
+  EnergyBranch
+  LinearElastic<dim>::branch(const Tensor<2, dim> &F) const
+  {
+    return dilatation(F) >= 0. ? EnergyBranch::expanded : EnergyBranch::compressed;
   }
 
 
@@ -121,10 +134,11 @@ namespace EBSMPM
   void
   LinearElastic<dim>::stress(const Tensor<2, dim> &F,
                              const double          g,
-                             Tensor<2, dim>       &P) const
+                             Tensor<2, dim>       &P,
+                          const EnergyBranch    branch) const
   {
     const double theta = dilatation(F);
-    const double g_vol = volumetric_part_degrades(theta) ? g : 1.;
+    const double g_vol = volumetric_part_degrades(theta, branch) ? g : 1.;
     P = stress_from_moduli(F, theta, g_vol * this->K, g * this->G);
   }
 
@@ -145,12 +159,18 @@ namespace EBSMPM
   void
   LinearElastic<dim>::response(const Tensor<2, dim> &F,
                                const double          g,
-                               Response             &response) const
+                               Response             &response,
+                            const EnergyBranch    branch) const
   {
-    energies(F, response.psi_degraded, response.psi_intact);
+    const double theta      = dilatation(F);
+    const bool   degrades   = volumetric_part_degrades(theta, branch);
+    const double volumetric = 0.5 * this->K * theta * theta;
 
-    const double theta = dilatation(F);
-    const double K     = (volumetric_part_degrades(theta) ? g : 1.) * this->K;
+    response.psi_degraded = deviatoric_energy(F, theta, this->G);
+    response.psi_intact   = 0.;
+    (degrades ? response.psi_degraded : response.psi_intact) += volumetric;
+
+    const double K     = (degrades ? g : 1.) * this->K;
     const double G     = g * this->G;
 
     response.P = stress_from_moduli(F, theta, K, G);

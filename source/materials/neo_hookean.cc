@@ -118,9 +118,22 @@ namespace EBSMPM
 
   template <int dim>
   bool
-  NeoHookean<dim>::volumetric_part_degrades(const double J) const
+  NeoHookean<dim>::volumetric_part_degrades(const double       J,
+                                    const EnergyBranch branch) const
   {
-    return this->split == EnergySplit::none || J >= 1.;
+    if (this->split == EnergySplit::none)
+      return true;
+    return branch == EnergyBranch::by_state ? J >= 1. :
+                                              branch == EnergyBranch::expanded;
+  }
+
+
+
+  template <int dim>
+  EnergyBranch
+  NeoHookean<dim>::branch(const Tensor<2, dim> &F) const
+  {
+    return Kinematics<dim>(F).J >= 1. ? EnergyBranch::expanded : EnergyBranch::compressed;
   }
 
 
@@ -145,10 +158,11 @@ namespace EBSMPM
   void
   NeoHookean<dim>::stress(const Tensor<2, dim> &F,
                           const double          g,
-                          Tensor<2, dim>       &P) const
+                          Tensor<2, dim>       &P,
+                          const EnergyBranch    branch) const
   {
     const Kinematics<dim> k(F);
-    const double          g_vol = volumetric_part_degrades(k.J) ? g : 1.;
+    const double          g_vol = volumetric_part_degrades(k.J, branch) ? g : 1.;
     P = stress_from_moduli(F, k, g_vol * this->K, g * this->G);
   }
 
@@ -169,11 +183,12 @@ namespace EBSMPM
   void
   NeoHookean<dim>::response(const Tensor<2, dim> &F,
                             const double          g,
-                            Response             &response) const
+                            Response             &response,
+                            const EnergyBranch    branch) const
   {
     const Kinematics<dim> k(F);
     const Tensor<2, dim>  H          = transpose(invert(F));
-    const bool            degrades   = volumetric_part_degrades(k.J);
+    const bool            degrades   = volumetric_part_degrades(k.J, branch);
     const double          K          = degrades ? g * this->K : this->K;
     const double          volumetric = volumetric_energy(k, this->K);
 

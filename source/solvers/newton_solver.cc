@@ -43,6 +43,92 @@ namespace EBSMPM
         return std::isfinite(norm) ? norm :
                                      std::numeric_limits<double>::infinity();
       }
+
+
+
+      /** A point on the search line. */
+      struct Trial
+      {
+        double step  = 0.;
+        double norm  = std::numeric_limits<double>::infinity();
+        double slope = std::numeric_limits<double>::infinity();
+      };
+
+
+
+      /**
+       * Look for a good step length: the full one if it reduces the residual,
+       * compared with the last few ones, or the slope of the energy; otherwise the point between where the slope
+       * is about zero. The energy has kinks in its second derivative, where
+       * points change from compression to expansion; there, the norm of the
+       * residual alone leads to cycles or to tiny steps.
+       */
+      template <typename Evaluate>
+      Trial
+      search(const Evaluate &   evaluate,
+             const double       initial_norm,
+             const double       allowed_norm,
+             const double       target,
+             const double       initial_slope,
+             const unsigned int max_bisections,
+             unsigned int &     n_trials)
+      {
+        const auto is_good = [&](const Trial &trial) {
+          return trial.norm <= std::max(0.9 * initial_norm, target) ||
+                 (initial_slope < 0. &&
+                  std::abs(trial.slope) <= 0.5 * std::abs(initial_slope));
+        };
+
+        Trial trial = evaluate(1.);
+        for (n_trials = 1;
+             !std::isfinite(trial.norm) && n_trials <= max_bisections;
+             ++n_trials)
+          trial = evaluate(0.5 * trial.step);
+        if (is_good(trial) || trial.norm <= allowed_norm ||
+            !std::isfinite(trial.norm) ||
+            (initial_slope < 0. && trial.slope < 0.))
+          return trial;
+
+        // Regula falsi with the Illinois modification, or, for an indefinite
+        // tangent, bisection until the residual decreases.
+        Trial best = trial;
+        Trial lower, upper = trial;
+        lower.step  = 0.;
+        lower.slope = initial_slope;
+        int side    = 0;
+        for (; n_trials <= max_bisections; ++n_trials)
+          {
+            double fraction = 0.5;
+            if (initial_slope < 0.)
+              fraction = std::min(
+                0.95, std::max(0.05, -lower.slope / (upper.slope - lower.slope)));
+            trial = evaluate(lower.step + fraction * (upper.step - lower.step));
+            if (initial_slope < 0. ?
+                  std::abs(trial.slope) < std::abs(best.slope) :
+                  trial.norm < best.norm)
+              best = trial;
+            if (is_good(trial))
+              break;
+            if (initial_slope < 0. && trial.slope < 0.)
+              {
+                lower = trial;
+                if (side == -1)
+                  upper.slope *= 0.5;
+                side = -1;
+              }
+            else
+              {
+                upper = trial;
+                if (side == 1)
+                  lower.slope *= 0.5;
+                side = 1;
+              }
+          }
+
+        // Where the slope jumps, stop behind the kink: the next tangent has to
+        // know what is there.
+        return (initial_slope < 0. && upper.norm < initial_norm) ? upper : best;
+      }
     } // namespace NewtonSolverImplementation
   }   // namespace internal
 
@@ -92,6 +178,15 @@ namespace EBSMPM
     for (; report.iterations < data.max_iterations && norm > target;
          ++report.iterations)
       {
+        // Points that change between compression and expansion all the time
+        // keep the iteration going in circles.
+        const auto last = report.residuals.end();
+        if (problem.smooth && !report.smoothed &&
+            report.residuals.size() > 8 && norm > 0.3 * *(last - 5))
+          {
+            problem.smooth(x);
+            report.smoothed = true;
+          }
         problem.tangent(x, residual);
 
         // As accurate as the nonlinear convergence can make use of.
@@ -110,37 +205,43 @@ namespace EBSMPM
         report.refreshes += linear.refreshed;
         report.indefinite = report.indefinite || linear.indefinite;
 
-        // Backtrack until the residual decreases; a state in which it does not
-        // exist counts as infinitely bad.
-        double       step       = 1.;
-        double       best_norm  = std::numeric_limits<double>::infinity();
-        double       best_step  = 1.;
-        unsigned int bisections = 0;
-        for (;; ++bisections, step *= 0.5)
-          {
-            trial.zero_out_ghost_values();
-            trial = x;
-            trial.zero_out_ghost_values();
-            trial.add(step, update);
-            const double trial_norm =
-              try_residual(problem.residual, trial, residual);
-            if (trial_norm < best_norm)
-              {
-                best_norm = trial_norm;
-                best_step = step;
-              }
-            if (trial_norm <= (1. - 1e-4 * step) * norm ||
-                trial_norm <= target || bisections == data.max_bisections)
-              break;
-          }
-        report.bisections += bisections;
-        AssertThrow(std::isfinite(best_norm),
+        // R.update is the slope of the energy along the search direction, which
+        // is negative at its beginning unless the tangent is indefinite.
+        const double initial_slope = -(residual * update);
+        const auto   evaluate      = [&](const double step) {
+          trial.zero_out_ghost_values();
+          trial = x;
+          trial.zero_out_ghost_values();
+          trial.add(step, update);
+          Trial result;
+          result.step = step;
+          result.norm = try_residual(problem.residual, trial, residual);
+          result.slope =
+            std::isfinite(result.norm) ? residual * update : result.norm;
+          return result;
+        };
+        // An increase for a few iterations is fine.
+        const double recent_norm = *std::max_element(
+          report.residuals.end() -
+            std::min<std::size_t>(4, report.residuals.size()),
+          report.residuals.end());
+
+        unsigned int n_trials = 0;
+        const Trial  best     = search(evaluate,
+                                  norm,
+                                  1.5 * recent_norm,
+                                  target,
+                                  initial_slope,
+                                  data.max_bisections,
+                                  n_trials);
+        report.bisections += n_trials - 1;
+        AssertThrow(std::isfinite(best.norm),
                     ExcSolverFailure("Newton's method met only states that are "
                                      "turned inside out."));
         x.zero_out_ghost_values();
-        x.add(best_step, update);
+        x.add(best.step, update);
         previous = norm;
-        norm     = best_norm;
+        norm     = best.norm;
         report.residuals.push_back(norm);
       }
 

@@ -368,7 +368,8 @@ namespace EBSMPM
          << report.newton_iterations << "  linear " << std::setw(4)
          << report.linear_iterations << "  new " << std::setw(2)
          << report.refreshes << "  twins " << std::setw(5) << space.n_twins()
-         << (report.indefinite ? "  (indefinite tangent)" : "") << '\n';
+         << (report.indefinite ? "  (indefinite tangent)" : "")
+         << (report.smoothed ? "  (branches held)" : "") << '\n';
     pcout << text.str() << std::flush;
     if (log_file)
       log_file << text.str() << std::flush;

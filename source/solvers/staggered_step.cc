@@ -278,6 +278,16 @@ namespace EBSMPM
         u_increment *= guess_factor;
       }
 
+    // The force of a broken specimen goes to zero, so compare residuals with the
+    // largest one so far; before there is any, with the first residual.
+    force_scale = largest_force;
+    if (force_scale == 0.)
+      {
+        LA::FieldVector residual = u_system.make_vector();
+        u_system.assemble_residual(state, boundary, u_increment, residual);
+        force_scale = residual.l2_norm();
+      }
+
     const bool iterate         = data.damage && data.max_passes > 1;
     double     relaxation      = 1.;
     double     previous_change = std::numeric_limits<double>::max();
@@ -395,17 +405,13 @@ namespace EBSMPM
       return u_system.matrix();
     };
 
-    // The force of a broken specimen goes to zero, so compare with the largest
-    // one so far; before there is any, with the first residual.
-    double scale = largest_force;
-    if (scale == 0.)
-      {
-        LA::FieldVector residual = u_system.make_vector();
-        u_system.assemble_residual(state, boundary, u_increment, residual);
-        scale = residual.l2_norm();
-      }
+    problem.smooth = [&](const LA::FieldVector &x) {
+      u_system.hold_branches(state, boundary, x);
+    };
 
     TimerOutput::Scope scope(*timer, "Newton");
+    u_system.release_branches();
+    const double       scale = force_scale;
     const auto         result =
       newton.solve(problem, u_solver, scale, tolerance, u_increment);
     report.newton_iterations += result.iterations;
@@ -413,6 +419,7 @@ namespace EBSMPM
     report.refreshes += result.refreshes;
     report.bisections += result.bisections;
     report.indefinite = report.indefinite || result.indefinite;
+    report.smoothed   = report.smoothed || result.smoothed;
     report.residual   = result.residual / (scale > 0. ? scale : 1.);
     report.residuals  = result.residuals;
   }

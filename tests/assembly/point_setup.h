@@ -35,34 +35,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
-#include <string>
+#include <memory>
 #include <vector>
+
+#include "../splines/verdict.h"
 
 using namespace dealii;
 using namespace EBSMPM;
-
-
-
-/** A number with few digits, the same on all machines. */
-inline std::string
-digits(const double x, const unsigned int n = 6)
-{
-  char buffer[40];
-  std::snprintf(buffer, sizeof(buffer), "%.*e", static_cast<int>(n) - 1, x);
-  return buffer;
-}
-
-
-
-/** The answer to a question, with the evidence if it is not the wanted one. */
-inline std::string
-verdict(const double error, const double bound)
-{
-  return error <= bound ? "OK" : "FAILED, " + digits(error, 3);
-}
 
 
 
@@ -403,6 +384,66 @@ private:
 
 
 /**
+ * Points that have moved: lists of records, of which a cell gets those that are
+ * in it. The lists 'material_order' and 'boundary_order' then tell which record
+ * has become which point of BodyOnGrid. For serial computations.
+ */
+template <int dim>
+class RecordedBody : public Body<dim>
+{
+public:
+  std::vector<MaterialRecord<dim>> material;
+  std::vector<BoundaryRecord<dim>> boundary_records;
+
+  mutable std::vector<unsigned int> material_order;
+  mutable std::vector<unsigned int> boundary_order;
+
+  virtual std::vector<MaterialRecord<dim>>
+  interior(const Point<dim> &lower,
+           const Point<dim> &upper,
+           const unsigned int) const override
+  {
+    std::vector<MaterialRecord<dim>> result;
+    for (unsigned int i = 0; i < material.size(); ++i)
+      if (is_inside(material[i].x, lower, upper))
+        {
+          result.push_back(material[i]);
+          material_order.push_back(i);
+        }
+    return result;
+  }
+
+  virtual std::vector<BoundaryRecord<dim>>
+  boundary(const Point<dim> &lower,
+           const Point<dim> &upper,
+           const unsigned int) const override
+  {
+    std::vector<BoundaryRecord<dim>> result;
+    for (unsigned int i = 0; i < boundary_records.size(); ++i)
+      if (is_inside(boundary_records[i].x, lower, upper))
+        {
+          result.push_back(boundary_records[i]);
+          boundary_order.push_back(i);
+        }
+    return result;
+  }
+
+private:
+  static bool
+  is_inside(const Point<dim> &x,
+            const Point<dim> &lower,
+            const Point<dim> &upper)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (x[d] < lower[d] || x[d] >= upper[d])
+        return false;
+    return true;
+  }
+};
+
+
+
+/**
  * A body on a grid: points, space, constraints, and the state of an undeformed
  * body, all of whose boundary is prescribed, in arrays that a test changes as
  * it likes before it makes systems of them.
@@ -476,8 +517,12 @@ struct BodyOnGrid
   typename SplineSpace<dim>::SupportTable
   supports() const
   {
+    std::vector<double> volumes(state.volume);
+    for (unsigned int q = 0; q < volumes.size(); ++q)
+      volumes[q] *= determinant(state.F[q]);
+
     typename SplineSpace<dim>::SupportTable table;
-    add_supports(points, state.volume, patterns, space, table);
+    add_supports(points, volumes, patterns, space, table);
     add_supports(boundary_points, {}, boundary_patterns, space, table);
     return table;
   }
@@ -560,6 +605,63 @@ struct BodyOnGrid
   AffineConstraints<double>       constraints;
   ExtensionReport                 report;
 };
+
+
+
+/**
+ * A body after a load step, on the same grid: the points at their new positions
+ * with what they carry. Serial.
+ */
+template <int dim>
+std::unique_ptr<BodyOnGrid<dim>>
+move_body(const BodyOnGrid<dim> &        old,
+          const DisplacementSystem<dim> &system,
+          const LA::FieldVector &        increment)
+{
+  const auto        update          = system.update_points(old.state, increment);
+  const auto        boundary_update = system.update_points(old.boundary,
+                                                    increment);
+  RecordedBody<dim> record;
+  for (unsigned int q = 0; q < old.points.n_points(); ++q)
+    record.material.push_back(
+      {old.points.location(q) + update.displacement_increment[q],
+       old.state.volume[q]});
+  for (unsigned int q = 0; q < old.boundary_points.n_points(); ++q)
+    record.boundary_records.push_back(
+      {old.boundary_points.location(q) +
+         boundary_update.displacement_increment[q],
+       old.boundary.area[q],
+       old.boundary.normal[q],
+       old.boundary.boundary_id[q]});
+
+  auto result = std::make_unique<BodyOnGrid<dim>>(old.triangulation,
+                                                  record,
+                                                  old.space.degree(),
+                                                  0);
+  AssertThrow(result->points.n_points() == old.points.n_points() &&
+                result->boundary_points.n_points() ==
+                  old.boundary_points.n_points(),
+              ExcMessage("Points have left the grid."));
+  for (unsigned int q = 0; q < result->points.n_points(); ++q)
+    {
+      const unsigned int i     = record.material_order[q];
+      result->state.F[q]       = update.F[i];
+      result->state.damage[q]  = old.state.damage[i];
+      result->state.history[q] = old.state.history[i];
+    }
+  for (unsigned int q = 0; q < result->boundary_points.n_points(); ++q)
+    {
+      const unsigned int i        = record.boundary_order[q];
+      result->boundary.F[q]       = boundary_update.F[i];
+      result->boundary.damage[q]  = old.boundary.damage[i];
+      result->boundary.displacement[q] =
+        old.boundary.displacement[i] +
+        boundary_update.displacement_increment[i];
+      result->boundary.constrained[q] = old.boundary.constrained[i];
+      result->boundary.prescribed[q]  = old.boundary.prescribed[i];
+    }
+  return result;
+}
 
 
 

@@ -114,6 +114,21 @@ namespace EBSMPM
     LA::FieldVector
     make_vector() const;
 
+    /**
+     * Hold all points on the branch of the energy split that they are on now,
+     * see EnergyBranch, in residuals and tangents to come. At boundary points,
+     * not only the tangent jumps between branches but, through the last term of
+     * Nitsche's method, the residual itself: it may have no root.
+     */
+    void
+    hold_branches(const MaterialState<dim> &state,
+                  const BoundaryState<dim> &boundary,
+                  const LA::FieldVector &   increment);
+
+    /** Let the branches follow the state again. reinit() does that as well. */
+    void
+    release_branches();
+
     /** Compute the residual. The ghost entries of @p increment are updated. */
     void
     assemble_residual(const MaterialState<dim> &state,
@@ -273,6 +288,10 @@ namespace EBSMPM
     const CellPoints<dim> * points          = nullptr;
     const CellPoints<dim> * boundary_points = nullptr;
     const SplineSpace<dim> *spline_space    = nullptr;
+
+    /** The branches of the points; empty unless they are held. */
+    std::vector<EnergyBranch> branches;
+    std::vector<EnergyBranch> boundary_branches;
 
     PointGroups<dim> material_groups;
     PointGroups<dim> boundary_groups;

@@ -58,10 +58,14 @@ namespace EBSMPM
              double               &psi_degraded,
              double               &psi_intact) const override;
 
+    virtual EnergyBranch
+    branch(const Tensor<2, dim> &F) const override;
+
     virtual void
     stress(const Tensor<2, dim> &F,
            const double          g,
-           Tensor<2, dim>       &P) const override;
+           Tensor<2, dim>       &P,
+           const EnergyBranch    branch = EnergyBranch::by_state) const override;
 
     virtual Tensor<2, dim>
     degraded_stress(const Tensor<2, dim> &F) const override;
@@ -69,7 +73,8 @@ namespace EBSMPM
     virtual void
     response(const Tensor<2, dim> &F,
              const double          g,
-             Response             &response) const override;
+             Response             &response,
+             const EnergyBranch    branch = EnergyBranch::by_state) const override;
 
     /**
      * Return zero, as the tangent does not depend on @p F, except where the
@@ -86,7 +91,8 @@ namespace EBSMPM
      * @p theta.
      */
     bool
-    volumetric_part_degrades(const double theta) const;
+    volumetric_part_degrades(const double       theta,
+                             const EnergyBranch branch = EnergyBranch::by_state) const;
   };
 } // namespace EBSMPM
 

@@ -37,6 +37,21 @@ namespace EBSMPM
 
 
   /**
+   * Which side of the switch of the energy split a point is on: by its state,
+   * or as told. The derivative of the stress jumps at the switch by four orders
+   * of magnitude where the material is broken, and Newton's method may go in
+   * circles around it. With the branches held, the problem is smooth.
+   */
+  enum class EnergyBranch : char
+  {
+    by_state,
+    expanded,
+    compressed
+  };
+
+
+
+  /**
    * A hyperelastic material whose energy a phase-field crack degrades: pure
    * functions of the deformation gradient $\mathbf F$, without a mesh, a point
    * or a history.
@@ -139,12 +154,19 @@ namespace EBSMPM
              double               &psi_intact) const = 0;
 
     /**
+     * Return the branch that the state @p F is on.
+     */
+    virtual EnergyBranch
+    branch(const Tensor<2, dim> &F) const = 0;
+
+    /**
      * Compute the stress $g\,\mathbf P^+ + \mathbf P^-$.
      */
     virtual void
     stress(const Tensor<2, dim> &F,
            const double          g,
-           Tensor<2, dim>       &P) const = 0;
+           Tensor<2, dim>       &P,
+           const EnergyBranch    branch = EnergyBranch::by_state) const = 0;
 
     /**
      * Return $\mathbf P^+$, the derivative of $\Psi^+$. The damage equation's
@@ -159,7 +181,8 @@ namespace EBSMPM
     virtual void
     response(const Tensor<2, dim> &F,
              const double          g,
-             Response             &response) const = 0;
+             Response             &response,
+             const EnergyBranch    branch = EnergyBranch::by_state) const = 0;
 
     /**
      * Return the derivative of the tangent in the direction @p W,

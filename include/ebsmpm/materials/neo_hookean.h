@@ -65,10 +65,14 @@ namespace EBSMPM
              double               &psi_degraded,
              double               &psi_intact) const override;
 
+    virtual EnergyBranch
+    branch(const Tensor<2, dim> &F) const override;
+
     virtual void
     stress(const Tensor<2, dim> &F,
            const double          g,
-           Tensor<2, dim>       &P) const override;
+           Tensor<2, dim>       &P,
+           const EnergyBranch    branch = EnergyBranch::by_state) const override;
 
     virtual Tensor<2, dim>
     degraded_stress(const Tensor<2, dim> &F) const override;
@@ -76,7 +80,8 @@ namespace EBSMPM
     virtual void
     response(const Tensor<2, dim> &F,
              const double          g,
-             Response             &response) const override;
+             Response             &response,
+             const EnergyBranch    branch = EnergyBranch::by_state) const override;
 
     virtual Tensor<4, dim>
     tangent_derivative(const Tensor<2, dim> &F,
@@ -89,7 +94,8 @@ namespace EBSMPM
      * @p J.
      */
     bool
-    volumetric_part_degrades(const double J) const;
+    volumetric_part_degrades(const double       J,
+                             const EnergyBranch branch = EnergyBranch::by_state) const;
   };
 } // namespace EBSMPM
 

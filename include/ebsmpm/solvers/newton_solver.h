@@ -19,13 +19,14 @@
 namespace EBSMPM
 {
   /**
-   * Newton's method with a backtracking line search, for the displacement.
+   * Newton's method with a line search, for the displacement.
    *
    * The linear systems are solved inexactly, as far as it pays off: the
    * relative tolerance follows the convergence of the residual (Eisenstat and
    * Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2), so that the last
-   * steps are still quadratic. A trial step with a larger residual, or one that
-   * turns a point inside out, is halved.
+   * steps are still quadratic. A trial step that turns a point inside out is
+   * halved; one that reduces neither the residual nor the slope of the energy
+   * is replaced by one where that slope is about zero.
    *
    * @code
    * NewtonSolver newton(data);
@@ -52,7 +53,7 @@ namespace EBSMPM
       /** Iterations after which to give up. */
       unsigned int max_iterations;
 
-      /** Number of times a trial step is halved. */
+      /** Number of trial steps of the line search. */
       unsigned int max_bisections;
     };
 
@@ -69,6 +70,13 @@ namespace EBSMPM
 
       /** The tangent. */
       std::function<const LA::SparseMatrix &()> matrix;
+
+      /**
+       * Make the problem smooth, by holding at @p x what switches between
+       * branches. Called at most once, when the iteration goes in circles; may
+       * be empty.
+       */
+      std::function<void(const LA::FieldVector &x)> smooth;
     };
 
     /** What happened. */
@@ -79,6 +87,7 @@ namespace EBSMPM
       unsigned int refreshes         = 0;
       unsigned int bisections        = 0;
       bool         indefinite        = false;
+      bool         smoothed          = false;
       double       residual          = 0.;
 
       /** Norms of the residual, before each iteration and at the end. */

@@ -122,6 +122,7 @@ namespace EBSMPM
       unsigned int bisections        = 0;
       unsigned int rebuilds          = 0;
       bool         indefinite        = false;
+      bool         smoothed          = false;
       double       damage_change     = 0.;
       double       residual          = 0.;
 
@@ -299,6 +300,7 @@ namespace EBSMPM
     Snapshot        last_increment;
     bool            space_is_current = false;
     double          largest_force    = 0.;
+    double          force_scale      = 0.;
 
     std::vector<types::boundary_id> boundary_ids;
   };
