@@ -300,8 +300,11 @@ namespace EBSMPM
         SymmetricTensor<2, dim> second;
         for (const auto &member : ball)
           {
-            const double w =
+            // Squared, so that the crest counts more than the flanks, also
+            // where the ridge is a plateau.
+            const double rise =
               std::max(0., member.second - ridge_fraction * maximum);
+            const double w = rise * rise;
             weight += w;
             first += w * member.first;
             second += w * symmetrize(outer_product(member.first, member.first));

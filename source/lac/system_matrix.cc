@@ -22,7 +22,7 @@ namespace EBSMPM
   bool
   SystemMatrix::reinit(const Utilities::MPI::Partitioner &functions,
                        const unsigned int                 n_components_,
-                       const std::vector<List> &          lists)
+                       const std::vector<List>           &lists)
   {
     const unsigned int n_known =
       functions.locally_owned_size() + functions.n_ghost_indices();
@@ -61,7 +61,9 @@ namespace EBSMPM
     const IndexSet &owned    = functions.locally_owned_range();
     IndexSet        relevant = owned;
     relevant.add_indices(functions.ghost_indices());
-    DynamicSparsityPattern coupling(functions.size(), functions.size(), relevant);
+    DynamicSparsityPattern               coupling(functions.size(),
+                                    functions.size(),
+                                    relevant);
     std::vector<types::global_dof_index> row;
     for (const auto &list : lists)
       {
@@ -101,7 +103,7 @@ namespace EBSMPM
     // more than one of these: it sorts them by process, with a sort that is not
     // stable.
     const Epetra_CrsMatrix &epetra = sparse_matrix.trilinos_matrix();
-    int *                   begins, *column_numbers;
+    int                    *begins, *column_numbers;
     const int               ierr =
       epetra.ExtractCrsDataPointers(begins, column_numbers, entries);
     AssertThrow(ierr == 0, ExcInternalError());
@@ -171,10 +173,10 @@ namespace EBSMPM
   SystemMatrix::add(const unsigned int list, const double *values)
   {
     AssertIndexRange(list + 1, list_begins.size());
-    const unsigned int  n    = list_begins[list + 1] - list_begins[list];
-    const unsigned int  nc   = n_components;
-    const unsigned int *f    = list_functions.data() + list_begins[list];
-    const int *         place = places.data() + place_begins[list];
+    const unsigned int  n     = list_begins[list + 1] - list_begins[list];
+    const unsigned int  nc    = n_components;
+    const unsigned int *f     = list_functions.data() + list_begins[list];
+    const int          *place = places.data() + place_begins[list];
 
     for (unsigned int i = 0; i < n; ++i, place += n)
       for (unsigned int a = 0; a < nc; ++a, values += nc * n)

@@ -19,7 +19,7 @@ namespace EBSMPM
   template <int dim>
   void
   CellPoints<dim>::reinit(Particles::ParticleHandler<dim> &handler,
-                          const CartesianLattice<dim> &    lattice)
+                          const CartesianLattice<dim>     &lattice)
   {
     cell_list.clear();
     unit_points.clear();

@@ -9,13 +9,14 @@
 
 
 // A square that is turned against the grid, and a cube, are stretched and
-// sheared by 20 per cent in two load steps, one side being held and the opposite
-// one moved by Nitsche's method. Newton's method converges quadratically.
-// Reactions are in balance, they are equal to the internal virtual work of a
-// field that is one on the moved side, and they are the derivative of the
-// energy with respect to the displacement prescribed.
+// sheared by 20 per cent in two load steps, one side being held and the
+// opposite one moved by Nitsche's method. Newton's method converges
+// quadratically. Reactions are in balance, they are equal to the internal
+// virtual work of a field that is one on the moved side, and they are the
+// derivative of the energy with respect to the displacement prescribed.
 
 #include <ebsmpm/base/exceptions.h>
+
 #include <ebsmpm/materials/make_material.h>
 
 #include <deal.II/distributed/tria.h>
@@ -25,6 +26,7 @@
 #include <memory>
 
 #include "../tests.h"
+
 #include "point_setup.h"
 
 
@@ -59,8 +61,8 @@ struct Setup<3>
 template <int dim>
 std::vector<double>
 newton(DisplacementSystem<dim> &system,
-       const BodyOnGrid<dim> &  body,
-       LA::FieldVector &        x)
+       const BodyOnGrid<dim>   &body,
+       LA::FieldVector         &x)
 {
   LA::FieldVector     residual = x, step = x;
   std::vector<double> norms;
@@ -108,14 +110,14 @@ test(const bool with_damage)
                                        -1.03,
                                        1.03);
   triangulation.refine_global(setup.n_refinements);
-  const auto material = make_material<dim>("neo-Hookean",
+  const auto        material = make_material<dim>("neo-Hookean",
                                            EnergySplit::volumetric_deviatoric,
                                            2.,
                                            1.);
   const Degradation degradation(1e-4);
-  auto body = std::make_unique<BodyOnGrid<dim>>(triangulation, setup.body, 2, 3);
-  const double h =
-    body->space.lattice().cell_extents(setup.n_refinements)[0];
+  auto              body =
+    std::make_unique<BodyOnGrid<dim>>(triangulation, setup.body, 2, 3);
+  const double h = body->space.lattice().cell_extents(setup.n_refinements)[0];
   DisplacementSystem<dim> system(*material,
                                  degradation,
                                  20. * material->nitsche_stiffness() / h);
@@ -165,8 +167,7 @@ test(const bool with_damage)
               << " iterations, quadratic " << verdict(1.5 - order, 0.)
               << std::endl;
 
-      const auto ids = std::vector<types::boundary_id>(
-        {0, 1, 2, 3, 4, 5});
+      const auto ids = std::vector<types::boundary_id>({0, 1, 2, 3, 4, 5});
       auto reactions = system.reactions(body->state, body->boundary, x, ids);
       const Tensor<1, dim> top = reactions[setup.moved];
       deallog << "  reactions";
@@ -197,14 +198,12 @@ test(const bool with_damage)
             if (body->boundary.constrained[q][0])
               {
                 typename Material<dim>::Response response;
-                material->response(
-                  boundary.F[q],
-                  degradation.value(body->boundary.damage[q]),
-                  response);
-                const Tensor<1, dim> w =
-                  body->boundary.displacement[q] +
-                  boundary.displacement_increment[q] -
-                  body->boundary.prescribed[q];
+                material->response(boundary.F[q],
+                                   degradation.value(body->boundary.damage[q]),
+                                   response);
+                const Tensor<1, dim> w = body->boundary.displacement[q] +
+                                         boundary.displacement_increment[q] -
+                                         body->boundary.prescribed[q];
                 for (unsigned int i = 0; i < dim; ++i)
                   for (unsigned int J = 0; J < dim; ++J)
                     for (unsigned int k = 0; k < dim; ++k)
@@ -212,11 +211,10 @@ test(const bool with_damage)
                         work[k] -= body->boundary.area[q] * w[i] *
                                    response.A[i][J][k][L] * setup.along[L] *
                                    body->boundary.normal[q][J];
-                AssertThrow(
-                  std::abs(ramp(body->boundary_points.location(q)) -
-                           (body->boundary.boundary_id[q] == setup.moved)) <
-                    1e-12,
-                  ExcInternalError());
+                AssertThrow(std::abs(ramp(body->boundary_points.location(q)) -
+                                     (body->boundary.boundary_id[q] ==
+                                      setup.moved)) < 1e-12,
+                            ExcInternalError());
               }
           deallog << ", virtual work "
                   << verdict((work - top).norm() / top.norm(), 1e-8);

@@ -14,11 +14,13 @@
 // part of the body in each cell, so that tests of the assembly do not see the
 // quadrature error of a lattice of points. None of this belongs to the library.
 
+#include <ebsmpm/base/compat.h>
+
+#include <ebsmpm/splines/extension.h>
+
 #include <ebsmpm/assembly/displacement_system.h>
 #include <ebsmpm/assembly/field_evaluation.h>
 #include <ebsmpm/assembly/supports.h>
-#include <ebsmpm/base/compat.h>
-#include <ebsmpm/splines/extension.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -36,7 +38,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -53,7 +54,7 @@ using namespace EBSMPM;
  */
 template <int dim>
 inline double
-scatter(const Point<dim> & x,
+scatter(const Point<dim>  &x,
         const unsigned int component,
         const double       frequency = 17.3)
 {
@@ -94,13 +95,13 @@ public:
 
   /** Points and weights for polynomials of degree 2n-1 (2n-2 on triangles). */
   virtual std::vector<MaterialRecord<dim>>
-  interior(const Point<dim> &lower,
-           const Point<dim> &upper,
+  interior(const Point<dim>  &lower,
+           const Point<dim>  &upper,
            const unsigned int n) const = 0;
 
   virtual std::vector<BoundaryRecord<dim>>
-  boundary(const Point<dim> &lower,
-           const Point<dim> &upper,
+  boundary(const Point<dim>  &lower,
+           const Point<dim>  &upper,
            const unsigned int n) const = 0;
 };
 
@@ -117,8 +118,8 @@ public:
   {}
 
   virtual std::vector<MaterialRecord<dim>>
-  interior(const Point<dim> &lower,
-           const Point<dim> &upper,
+  interior(const Point<dim>  &lower,
+           const Point<dim>  &upper,
            const unsigned int n) const override
   {
     std::vector<MaterialRecord<dim>> result;
@@ -144,8 +145,8 @@ public:
   }
 
   virtual std::vector<BoundaryRecord<dim>>
-  boundary(const Point<dim> &lower,
-           const Point<dim> &upper,
+  boundary(const Point<dim>  &lower,
+           const Point<dim>  &upper,
            const unsigned int n) const override
   {
     std::vector<BoundaryRecord<dim>> result;
@@ -153,15 +154,15 @@ public:
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
         // A face on a grid line belongs to the cell on the body's side.
-        const unsigned int d0   = face / 2;
-        const double       sign = (face % 2 == 0 ? -1. : 1.);
+        const unsigned int d0       = face / 2;
+        const double       sign     = (face % 2 == 0 ? -1. : 1.);
         const double       position = (face % 2 == 0 ? a[d0] : b[d0]);
         const double inside = position - sign * 1e-9 * (upper[d0] - lower[d0]);
         if (inside < lower[d0] || inside >= upper[d0])
           continue;
 
-        double         area = 1.;
-        Point<dim>     from, to;
+        double     area = 1.;
+        Point<dim> from, to;
         for (unsigned int d = 0; d < dim; ++d)
           if (d != d0)
             {
@@ -222,8 +223,8 @@ public:
   }
 
   virtual std::vector<MaterialRecord<2>>
-  interior(const Point<2> &   lower,
-           const Point<2> &   upper,
+  interior(const Point<2>    &lower,
+           const Point<2>    &upper,
            const unsigned int n) const override
   {
     // Clip the cell by one edge after the other.
@@ -231,14 +232,14 @@ public:
                                      Point<2>(upper[0], lower[1]),
                                      upper,
                                      Point<2>(lower[0], upper[1])};
-    bool                  is_cut = false;
+    bool                  is_cut  = false;
     for (unsigned int e = 0; e < corners.size(); ++e)
       {
         std::vector<Point<2>> clipped;
         for (unsigned int i = 0; i < polygon.size(); ++i)
           {
-            const Point<2> &x = polygon[i];
-            const Point<2> &y = polygon[(i + 1) % polygon.size()];
+            const Point<2> &x  = polygon[i];
+            const Point<2> &y  = polygon[(i + 1) % polygon.size()];
             const double    dx = distance(e, x), dy = distance(e, y);
             if (dx <= 0.)
               clipped.push_back(x);
@@ -272,8 +273,8 @@ public:
     const QGauss<1> quadrature(n);
     for (unsigned int i = 1; i + 1 < polygon.size(); ++i)
       {
-        const Tensor<1, 2> u = polygon[i] - polygon[0];
-        const Tensor<1, 2> v = polygon[i + 1] - polygon[i];
+        const Tensor<1, 2> u          = polygon[i] - polygon[0];
+        const Tensor<1, 2> v          = polygon[i + 1] - polygon[i];
         const double       twice_area = u[0] * v[1] - u[1] * v[0];
         if (twice_area < 1e-14 * (upper - lower).norm_square())
           continue;
@@ -282,25 +283,25 @@ public:
             {
               const double s = quadrature.point(a)[0];
               const double t = quadrature.point(b)[0];
-              result.push_back({polygon[0] + s * u + s * t * v,
-                                twice_area * s * quadrature.weight(a) *
-                                  quadrature.weight(b)});
+              result.push_back(
+                {polygon[0] + s * u + s * t * v,
+                 twice_area * s * quadrature.weight(a) * quadrature.weight(b)});
             }
       }
     return result;
   }
 
   virtual std::vector<BoundaryRecord<2>>
-  boundary(const Point<2> &   lower,
-           const Point<2> &   upper,
+  boundary(const Point<2>    &lower,
+           const Point<2>    &upper,
            const unsigned int n) const override
   {
     std::vector<BoundaryRecord<2>> result;
     const QGauss<1>                quadrature(n);
     for (unsigned int e = 0; e < corners.size(); ++e)
       {
-        const Point<2> &   x = corners[e];
-        const Tensor<1, 2> t = corners[(e + 1) % corners.size()] - x;
+        const Point<2>    &x    = corners[e];
+        const Tensor<1, 2> t    = corners[(e + 1) % corners.size()] - x;
         double             from = 0., to = 1.;
         for (unsigned int d = 0; d < 2; ++d)
           if (std::abs(t[d]) > 1e-12)
@@ -336,49 +337,6 @@ private:
   }
 
   const std::vector<Point<2>> corners;
-};
-
-
-
-/** A lattice of m midpoints per direction and cell, where 'inside' says so. */
-template <int dim>
-class LatticeBody : public Body<dim>
-{
-public:
-  explicit LatticeBody(const std::function<bool(const Point<dim> &)> &inside)
-    : inside(inside)
-  {}
-
-  virtual std::vector<MaterialRecord<dim>>
-  interior(const Point<dim> &lower,
-           const Point<dim> &upper,
-           const unsigned int n) const override
-  {
-    std::vector<MaterialRecord<dim>> result;
-    double                           volume = 1.;
-    for (unsigned int d = 0; d < dim; ++d)
-      volume *= (upper[d] - lower[d]) / n;
-    for (unsigned int i = 0; i < Utilities::pow(n, dim); ++i)
-      {
-        Point<dim> x = lower;
-        for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n)
-          x[d] += (rest % n + 0.5) / n * (upper[d] - lower[d]);
-        if (inside(x))
-          result.push_back({x, volume});
-      }
-    return result;
-  }
-
-  virtual std::vector<BoundaryRecord<dim>>
-  boundary(const Point<dim> &,
-           const Point<dim> &,
-           const unsigned int) const override
-  {
-    return {};
-  }
-
-private:
-  const std::function<bool(const Point<dim> &)> inside;
 };
 
 
@@ -454,7 +412,7 @@ struct BodyOnGrid
   using Pattern = typename PointGroups<dim>::Pattern;
 
   BodyOnGrid(const Triangulation<dim> &triangulation,
-             const Body<dim> &         body,
+             const Body<dim>          &body,
              const unsigned int        degree,
              const unsigned int        n_quadrature_points)
     : triangulation(triangulation)
@@ -546,12 +504,8 @@ struct BodyOnGrid
   void
   reinit(System &system) const
   {
-    system.reinit(points,
-                  boundary_points,
-                  space,
-                  constraints,
-                  patterns,
-                  boundary_patterns);
+    system.reinit(
+      points, boundary_points, space, constraints, patterns, boundary_patterns);
   }
 
   /**
@@ -559,12 +513,11 @@ struct BodyOnGrid
    * 'value' says about the key, the Greville point and a component.
    */
   void
-  set_coefficients(
-    LA::FieldVector &  field,
-    const unsigned int n_components,
-    const std::function<double(const FunctionKey<dim> &,
-                               const Point<dim> &,
-                               unsigned int)> &value) const
+  set_coefficients(LA::FieldVector                           &field,
+                   const unsigned int                         n_components,
+                   const std::function<double(const FunctionKey<dim> &,
+                                              const Point<dim> &,
+                                              unsigned int)> &value) const
   {
     for (const auto &entry : space.functions())
       if (space.locally_owned().is_element(entry.second.index) &&
@@ -578,20 +531,20 @@ struct BodyOnGrid
 
   /** A vector of numbers between -1 and 1, the same on any number of ranks. */
   void
-  scatter_coefficients(LA::FieldVector &  field,
+  scatter_coefficients(LA::FieldVector   &field,
                        const unsigned int n_components,
                        const unsigned int seed = 0) const
   {
     set_coefficients(field,
                      n_components,
                      [seed](const FunctionKey<dim> &,
-                            const Point<dim> & x,
+                            const Point<dim>  &x,
                             const unsigned int a) {
                        return scatter(x, a + 5 * seed, 4.);
                      });
   }
 
-  const Triangulation<dim> &      triangulation;
+  const Triangulation<dim>       &triangulation;
   MappingCartesian<dim>           mapping;
   Particles::ParticleHandler<dim> material_handler;
   Particles::ParticleHandler<dim> boundary_handler;
@@ -614,13 +567,12 @@ struct BodyOnGrid
  */
 template <int dim>
 std::unique_ptr<BodyOnGrid<dim>>
-move_body(const BodyOnGrid<dim> &        old,
+move_body(const BodyOnGrid<dim>         &old,
           const DisplacementSystem<dim> &system,
-          const LA::FieldVector &        increment)
+          const LA::FieldVector         &increment)
 {
-  const auto        update          = system.update_points(old.state, increment);
-  const auto        boundary_update = system.update_points(old.boundary,
-                                                    increment);
+  const auto update          = system.update_points(old.state, increment);
+  const auto boundary_update = system.update_points(old.boundary, increment);
   RecordedBody<dim> record;
   for (unsigned int q = 0; q < old.points.n_points(); ++q)
     record.material.push_back(
@@ -651,9 +603,9 @@ move_body(const BodyOnGrid<dim> &        old,
     }
   for (unsigned int q = 0; q < result->boundary_points.n_points(); ++q)
     {
-      const unsigned int i        = record.boundary_order[q];
-      result->boundary.F[q]       = boundary_update.F[i];
-      result->boundary.damage[q]  = old.boundary.damage[i];
+      const unsigned int i       = record.boundary_order[q];
+      result->boundary.F[q]      = boundary_update.F[i];
+      result->boundary.damage[q] = old.boundary.damage[i];
       result->boundary.displacement[q] =
         old.boundary.displacement[i] +
         boundary_update.displacement_increment[i];
@@ -668,8 +620,8 @@ move_body(const BodyOnGrid<dim> &        old,
 /** Solve a system with a serial factorisation. */
 inline void
 solve_directly(const LA::SparseMatrix &matrix,
-               LA::FieldVector &       solution,
-               const LA::FieldVector & right_hand_side)
+               LA::FieldVector        &solution,
+               const LA::FieldVector  &right_hand_side)
 {
   solution.zero_out_ghost_values();
   SolverControl                  control(1, 0., false, false);

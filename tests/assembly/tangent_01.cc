@@ -13,8 +13,9 @@
 // The matrix of DamageSystem is the second derivative of the energy that it
 // minimises. Both are symmetric, and the same on any number of processes.
 
-#include <ebsmpm/assembly/damage_system.h>
 #include <ebsmpm/materials/make_material.h>
+
+#include <ebsmpm/assembly/damage_system.h>
 
 #include <deal.II/distributed/tria.h>
 
@@ -23,6 +24,7 @@
 #include <memory>
 
 #include "../tests.h"
+
 #include "point_setup.h"
 
 
@@ -90,8 +92,8 @@ disturb(BodyOnGrid<dim> &body)
 template <int dim>
 double
 energy(const DisplacementSystem<dim> &system,
-       const BodyOnGrid<dim> &        body,
-       const LA::FieldVector &        increment)
+       const BodyOnGrid<dim>         &body,
+       const LA::FieldVector         &increment)
 {
   const auto energies = system.energies(body.state, body.boundary, increment);
   return energies.elastic + energies.penalty;
@@ -102,8 +104,8 @@ energy(const DisplacementSystem<dim> &system,
 /** The quadratic form of a matrix. */
 double
 product(const LA::SparseMatrix &matrix,
-        const LA::FieldVector & v,
-        const LA::FieldVector & w)
+        const LA::FieldVector  &v,
+        const LA::FieldVector  &w)
 {
   LA::FieldVector Aw = v;
   Aw                 = 0.;
@@ -155,9 +157,9 @@ test_displacement(BodyOnGrid<dim> &body, const Material<dim> &material)
       const double slope =
         (energy(system, body, x_plus) - energy(system, body, x_minus)) /
         (2. * epsilon);
-      residual_error = std::max(residual_error,
-                                std::abs(slope - v * residual) /
-                                  std::abs(v * residual));
+      residual_error =
+        std::max(residual_error,
+                 std::abs(slope - v * residual) / std::abs(v * residual));
 
       asymmetry = std::max(asymmetry,
                            std::abs(product(K, v, w) - product(K, w, v)) /
@@ -249,7 +251,7 @@ void
 test(const unsigned int degree)
 {
   parallel::distributed::Triangulation<dim> triangulation(MPI_COMM_WORLD);
-  const unsigned int n = (dim == 2 ? 5 : 3);
+  const unsigned int                        n = (dim == 2 ? 5 : 3);
   GridGenerator::subdivided_hyper_cube(triangulation, n, -0.83, 0.83);
   triangulation.refine_global(1);
 

@@ -23,6 +23,7 @@
 #include <deal.II/physics/transformations.h>
 
 #include "../tests.h"
+
 #include "point_setup.h"
 
 
@@ -110,7 +111,7 @@ test(const unsigned int degree, const double plane)
     body.boundary.constrained[q].fill(body.boundary.boundary_id[q] ==
                                       2 * dim - 2);
 
-  const auto material = make_material<dim>("neo-Hookean",
+  const auto              material = make_material<dim>("neo-Hookean",
                                            EnergySplit::volumetric_deviatoric,
                                            3.,
                                            1.);
@@ -130,7 +131,7 @@ test(const unsigned int degree, const double plane)
   body.set_coefficients(x,
                         dim,
                         [&](const FunctionKey<dim> &key,
-                            const Point<dim> &      y,
+                            const Point<dim>       &y,
                             const unsigned int      c) {
                           return function_above(key) ? motion(y)[c] : 0.;
                         });
@@ -162,19 +163,18 @@ test(const unsigned int degree, const double plane)
   double force = 0.;
   for (unsigned int mode = 0; mode < dim + 1; ++mode)
     {
-      body.set_coefficients(
-        v,
-        dim,
-        [&](const FunctionKey<dim> &key,
-            const Point<dim> &      y,
-            const unsigned int      c) {
-          if (!function_above(key))
-            return 0.;
-          if (mode < dim)
-            return c == mode ? 1. : 0.;
-          const Tensor<1, dim> z = t + R * y;
-          return c == 0 ? -z[1] : c == 1 ? z[0] : 0.;
-        });
+      body.set_coefficients(v,
+                            dim,
+                            [&](const FunctionKey<dim> &key,
+                                const Point<dim>       &y,
+                                const unsigned int      c) {
+                              if (!function_above(key))
+                                return 0.;
+                              if (mode < dim)
+                                return c == mode ? 1. : 0.;
+                              const Tensor<1, dim> z = t + R * y;
+                              return c == 0 ? -z[1] : c == 1 ? z[0] : 0.;
+                            });
       system.matrix().vmult(w, v);
       force = std::max(force, w.l2_norm() / stiffness);
     }

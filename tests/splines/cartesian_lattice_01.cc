@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "../tests.h"
+
 #include "verdict.h"
 
 
@@ -63,11 +64,11 @@ check(const Triangulation<dim> &triangulation, const std::string &name)
             error = std::max(error,
                              std::abs(lattice.origin()[d] + index[d] * h[d] -
                                       cell->vertex(0)[d]));
-            error =
-              std::max(error,
-                       std::abs(cell->vertex(0)[d] + h[d] -
-                                cell->vertex(
-                                  GeometryInfo<dim>::vertices_per_cell - 1)[d]));
+            error = std::max(error,
+                             std::abs(
+                               cell->vertex(0)[d] + h[d] -
+                               cell->vertex(
+                                 GeometryInfo<dim>::vertices_per_cell - 1)[d]));
           }
       }
   deallog << name << ", " << dim << "-D, "
@@ -110,7 +111,7 @@ check_all(Grid &grid, const std::string &name)
 
 
 void
-expect_refusal(const std::string &                                name,
+expect_refusal(const std::string                             &name,
                const std::function<void(Triangulation<2> &)> &make)
 {
   Triangulation<2> grid;
@@ -168,8 +169,8 @@ main(int argc, char **argv)
   });
   expect_refusal("turned by a right angle", [](Triangulation<2> &grid) {
     GridGenerator::subdivided_hyper_cube(grid, 3);
-    GridTools::transform([](const Point<2> &x) { return Point<2>(-x[1], x[0]); },
-                         grid);
+    GridTools::transform(
+      [](const Point<2> &x) { return Point<2>(-x[1], x[0]); }, grid);
   });
   expect_refusal("graded", [](Triangulation<2> &grid) {
     GridGenerator::subdivided_hyper_cube(grid, 3);

@@ -14,6 +14,7 @@
 // sparsity pattern and matrix as for any finite element of deal.II.
 
 #include <ebsmpm/lac/types.h>
+
 #include <ebsmpm/splines/bspline_kernel.h>
 #include <ebsmpm/splines/extension.h>
 #include <ebsmpm/splines/fe_bspline.h>
@@ -40,6 +41,7 @@
 #include <cmath>
 
 #include "../tests.h"
+
 #include "support_setup.h"
 #include "verdict.h"
 
@@ -93,17 +95,15 @@ coefficient(const FunctionKey<dim> &key, const SplineSpace<dim> &space)
 /** The indices of the functions that a cell sees. */
 template <int dim>
 std::vector<types::global_dof_index>
-cell_indices(const SplineSpace<dim> &                          space,
+cell_indices(const SplineSpace<dim>                           &space,
              const typename Triangulation<dim>::cell_iterator &cell)
 {
   std::vector<types::global_dof_index> indices;
   for (unsigned int i = 0; i < space.n_functions_per_cell(); ++i)
-    indices.push_back(
-      space
-        .find(space.cell_function(space.lattice().cell_index(cell),
-                                  cell->level(),
-                                  i))
-        ->index);
+    indices.push_back(space
+                        .find(space.cell_function(
+                          space.lattice().cell_index(cell), cell->level(), i))
+                        ->index);
   return indices;
 }
 
@@ -112,7 +112,7 @@ cell_indices(const SplineSpace<dim> &                          space,
 /** A vector of the values of the independent functions, with ghost entries. */
 template <int dim>
 LA::FieldVector
-make_field(const SplineSpace<dim> &         space,
+make_field(const SplineSpace<dim>          &space,
            const AffineConstraints<double> &constraints)
 {
   IndexSet relevant(space.n_independent());
@@ -198,8 +198,7 @@ test(const unsigned int degree)
                 value += B[i] * c[i];
               Point<dim> x = cell->vertex(0);
               for (unsigned int d = 0; d < dim; ++d)
-                x[d] +=
-                  xi[d] * space.lattice().cell_extents(cell->level())[d];
+                x[d] += xi[d] * space.lattice().cell_extents(cell->level())[d];
               error = std::max(error, std::abs(value - polynomial(x, degree)));
             }
         }
@@ -210,8 +209,8 @@ test(const unsigned int degree)
           << verdict(error_of(field), 1e-12);
 
   // Project the polynomial, given at the points only.
-  const IndexSet &       rows = space.locally_owned_independent();
-  IndexSet               relevant_rows = rows;
+  const IndexSet &rows          = space.locally_owned_independent();
+  IndexSet        relevant_rows = rows;
   relevant_rows.add_indices(field.get_partitioner()->ghost_indices());
   DynamicSparsityPattern dsp(rows.size(), rows.size(), relevant_rows);
   for (const auto &cell : triangulation.active_cell_iterators())
@@ -239,8 +238,7 @@ test(const unsigned int degree)
             kernel.values(xi, B.data());
             Point<dim> x = cell->vertex(0);
             for (unsigned int d = 0; d < dim; ++d)
-              x[d] +=
-                xi[d] * space.lattice().cell_extents(cell->level())[d];
+              x[d] += xi[d] * space.lattice().cell_extents(cell->level())[d];
             for (unsigned int i = 0; i < n; ++i)
               {
                 f(i) += B[i] * polynomial(x, degree);
@@ -257,8 +255,8 @@ test(const unsigned int degree)
   matrix.compress(VectorOperation::add);
   rhs.compress(VectorOperation::add);
 
-  SolverControl                 control(3000, 1e-14 * rhs.l2_norm(), false, false);
-  SolverCG<LA::Vector>          cg(control);
+  SolverControl        control(3000, 1e-14 * rhs.l2_norm(), false, false);
+  SolverCG<LA::Vector> cg(control);
   TrilinosWrappers::PreconditionJacobi jacobi;
   jacobi.initialize(matrix);
   cg.solve(matrix, solution, rhs, jacobi);
@@ -300,10 +298,10 @@ test(const unsigned int degree)
         std::vector<double> u(points.size());
         values.get_function_values(cell_wise, u);
         for (unsigned int q = 0; q < points.size(); ++q)
-          error = std::max(error,
-                           std::abs(u[q] -
-                                    polynomial(values.quadrature_point(q),
-                                               degree)));
+          error =
+            std::max(error,
+                     std::abs(u[q] -
+                              polynomial(values.quadrature_point(q), degree)));
       }
   deallog << "  in a DoFHandler "
           << verdict(Utilities::MPI::max(error, comm), 1e-12) << std::endl;

@@ -8,8 +8,8 @@
 // -----------------------------------------------------------------------------
 
 // FE_BSpline: partition of unity, agreement with BSplineKernel, continuity of
-// all derivatives up to p-1 across cells under the numbering of SplineSpace, and
-// use with deal.II's DoFHandler, FEValues and Mapping classes.
+// all derivatives up to p-1 across cells under the numbering of SplineSpace,
+// and use with deal.II's DoFHandler, FEValues and Mapping classes.
 
 #include <ebsmpm/splines/bspline_kernel.h>
 #include <ebsmpm/splines/fe_bspline.h>
@@ -32,6 +32,7 @@
 #include <vector>
 
 #include "../tests.h"
+
 #include "verdict.h"
 
 
@@ -41,7 +42,7 @@ template <int dim>
 std::vector<double>
 derivatives(const FE_BSpline<dim> &fe,
             const unsigned int     i,
-            const Point<dim> &     x,
+            const Point<dim>      &x,
             const unsigned int     order)
 {
   std::vector<double> result;
@@ -62,10 +63,10 @@ derivatives(const FE_BSpline<dim> &fe,
 /** The largest jump of a derivative between two cells of a lattice. */
 template <int dim>
 double
-jump(const FE_BSpline<dim> & fe,
+jump(const FE_BSpline<dim>  &fe,
      const SplineSpace<dim> &space,
      const unsigned int      direction,
-     const Point<dim> &      on_left_cell,
+     const Point<dim>       &on_left_cell,
      const unsigned int      order)
 {
   typename CartesianLattice<dim>::Index left{}, right{};
@@ -80,10 +81,8 @@ jump(const FE_BSpline<dim> & fe,
       {
         // The derivative here, and that of the same function on the other
         // cell: zero if the other cell does not see it.
-        const auto here = derivatives(fe,
-                                      i,
-                                      side == 0 ? on_left_cell : on_right_cell,
-                                      order);
+        const auto here =
+          derivatives(fe, i, side == 0 ? on_left_cell : on_right_cell, order);
         std::vector<double> there(here.size(), 0.);
         const auto key = space.cell_function(side == 0 ? left : right, 0, i);
         for (unsigned int j = 0; j < n; ++j)
@@ -116,9 +115,9 @@ test(const unsigned int degree)
   deallog << fe.get_name() << ": " << n << " functions, "
           << dof_handler.n_dofs() << " of the DoFHandler" << std::endl;
 
-  const QGauss<dim>          quadrature(3);
-  const MappingQ1<dim>       mapping;
-  FEValues<dim>              values(mapping,
+  const QGauss<dim>                                             quadrature(3);
+  const MappingQ1<dim>                                          mapping;
+  FEValues<dim>                                                 values(mapping,
                        fe,
                        quadrature,
                        update_values | update_gradients);

@@ -28,6 +28,7 @@
 #include <functional>
 
 #include "../tests.h"
+
 #include "support_setup.h"
 #include "verdict.h"
 
@@ -77,8 +78,8 @@ test_space(const unsigned int degree, const bool refined)
   const auto       supports = ball_supports(triangulation, space, center, 0.37);
   space.reinit(supports, 0.1);
 
-  const MPI_Comm     comm = space.communicator();
-  const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+  const MPI_Comm     comm     = space.communicator();
+  const unsigned int rank     = Utilities::MPI::this_mpi_process(comm);
   double             owned[4] = {0., 0., 0., 0.};
   unsigned int       errors   = 0;
   IndexSet           all(space.n_functions());
@@ -87,8 +88,8 @@ test_space(const unsigned int degree, const bool refined)
       const auto &f = entry.second;
       all.add_index(f.index);
       errors += (f.owner > rank);
-      errors += (space.locally_owned().is_element(f.index) !=
-                 (f.owner == rank));
+      errors +=
+        (space.locally_owned().is_element(f.index) != (f.owner == rank));
       errors += (f.index < space.n_independent()) !=
                 (f.category == SplineSpace<dim>::FunctionClass::standard);
       errors += (supports.count(entry.first) != 1);
@@ -128,10 +129,10 @@ test_space(const unsigned int degree, const bool refined)
     sum += i;
   const types::global_dof_index n = space.n_functions();
   errors += (Utilities::MPI::sum(sum, comm) != n * (n - 1) / 2);
-  errors += (Utilities::MPI::sum(space.locally_owned().n_elements(), comm) != n);
-  errors += (Utilities::MPI::sum(
-               space.locally_owned_independent().n_elements(), comm) !=
-             space.n_independent());
+  errors +=
+    (Utilities::MPI::sum(space.locally_owned().n_elements(), comm) != n);
+  errors += (Utilities::MPI::sum(space.locally_owned_independent().n_elements(),
+                                 comm) != space.n_independent());
   errors += !space.locally_owned_independent().is_contiguous();
 
   for (double &x : owned)

@@ -33,7 +33,7 @@ constexpr unsigned int n_midpoints = 4;
 template <int dim>
 std::vector<Point<dim>>
 ball_points(const typename Triangulation<dim>::cell_iterator &cell,
-            const Point<dim> &                                center,
+            const Point<dim>                                 &center,
             const double                                      radius)
 {
   const Point<dim> lower = cell->vertex(0);
@@ -60,8 +60,8 @@ ball_points(const typename Triangulation<dim>::cell_iterator &cell,
 template <int dim>
 typename SplineSpace<dim>::SupportTable
 ball_supports(const Triangulation<dim> &triangulation,
-              const SplineSpace<dim> &  space,
-              const Point<dim> &        center,
+              const SplineSpace<dim>   &space,
+              const Point<dim>         &center,
               const double              radius)
 {
   typename SplineSpace<dim>::SupportTable supports;
@@ -73,9 +73,8 @@ ball_supports(const Triangulation<dim> &triangulation,
         {
           kernel.values(xi, B.data());
           for (unsigned int i = 0; i < kernel.n_functions(); ++i)
-            supports[space.cell_function(space.lattice().cell_index(cell),
-                                         cell->level(),
-                                         i)]
+            supports[space.cell_function(
+                       space.lattice().cell_index(cell), cell->level(), i)]
               .fraction += B[i] / Utilities::pow(n_midpoints, dim);
         }
   return supports;

@@ -62,7 +62,7 @@ namespace EBSMPM
     bool
     reinit(const Utilities::MPI::Partitioner &functions,
            const unsigned int                 n_components,
-           const std::vector<List> &          lists);
+           const std::vector<List>           &lists);
 
     /** Set all entries to zero. */
     void
@@ -96,14 +96,14 @@ namespace EBSMPM
     LA::SparseMatrix sparse_matrix;
 
     /** The entries of the rows owned, row by row, and where rows begin. */
-    double *   entries    = nullptr;
+    double    *entries    = nullptr;
     const int *row_begins = nullptr;
 
     /** The functions of all lists, where lists begin, and their places. */
-    std::vector<unsigned int>            list_functions;
-    std::vector<std::size_t>             list_begins;
-    std::vector<std::size_t>             place_begins;
-    std::vector<int>                     places;
+    std::vector<unsigned int> list_functions;
+    std::vector<std::size_t>  list_begins;
+    std::vector<std::size_t>  place_begins;
+    std::vector<int>          places;
 
     /**
      * Where the columns of the components of a function are not consecutive in

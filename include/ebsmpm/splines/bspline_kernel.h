@@ -146,6 +146,8 @@ namespace EBSMPM
           break;
         default:
           Assert(false, ExcInternalError());
+          // The constructor has seen to it; let the compiler know as well.
+          __builtin_unreachable();
       }
   }
 
