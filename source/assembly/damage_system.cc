@@ -79,6 +79,15 @@ namespace EBSMPM
 
   template <int dim>
   void
+  DamageSystem<dim>::initialize_vector(LA::FieldVector &vector) const
+  {
+    vector.reinit(functions);
+  }
+
+
+
+  template <int dim>
+  void
   DamageSystem<dim>::assemble(const MaterialState<dim> & state,
                               const BoundaryState<dim> & boundary,
                               const std::vector<double> &boundary_driving,

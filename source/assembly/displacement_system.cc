@@ -132,6 +132,15 @@ namespace EBSMPM
 
   template <int dim>
   void
+  DisplacementSystem<dim>::initialize_vector(LA::FieldVector &vector) const
+  {
+    vector.reinit(unknowns);
+  }
+
+
+
+  template <int dim>
+  void
   DisplacementSystem<dim>::hold_branches(const MaterialState<dim> &state,
                                          const BoundaryState<dim> &boundary,
                                          const LA::FieldVector &   increment)

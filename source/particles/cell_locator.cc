@@ -90,6 +90,9 @@ namespace EBSMPM
     const MPI_Comm comm = get_mpi_communicator(triangulation);
     if (Utilities::MPI::max(outdated ? 1u : 0u, comm) == 0)
       return;
+    // The locator may be older than the grid, which is then still empty.
+    if (triangulation.n_levels() == 0)
+      return;
     outdated = false;
     cache.mark_for_update();
 

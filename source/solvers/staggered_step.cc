@@ -106,7 +106,7 @@ namespace EBSMPM
     if (d_system.reinit(
           points, boundary_points, d_space, d_constraints, {}, {}))
       d_solver.clear();
-    d_field = d_system.make_vector();
+    d_system.initialize_vector(d_field);
     if (old_damage.field.size() > 0)
       transfer<1>(old_damage, d_space, d_field);
 
@@ -145,7 +145,7 @@ namespace EBSMPM
         set_near_null_space();
       }
 
-    u_increment = u_system.make_vector();
+    u_system.initialize_vector(u_increment);
     if (old.field.size() > 0)
       transfer<dim>(old, u_space, u_increment);
     space_is_current = true;
@@ -196,7 +196,8 @@ namespace EBSMPM
   {
     snapshot.functions     = space.functions();
     snapshot.n_independent = space.n_independent();
-    snapshot.field         = field;
+    snapshot.field.reinit(field, true);
+    snapshot.field = field;
     snapshot.field.update_ghost_values();
   }
 

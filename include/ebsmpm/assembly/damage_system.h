@@ -79,6 +79,14 @@ namespace EBSMPM
     make_vector() const;
 
     /**
+     * Give @p vector the right distribution, and set it to zero. An assignment
+     * from make_vector() is not the same: if both vectors own the same range,
+     * deal.II keeps the ghost entries of the one on the left.
+     */
+    void
+    initialize_vector(LA::FieldVector &vector) const;
+
+    /**
      * Assemble matrix and right hand side. Collective.
      *
      * @param state the material points; the history field is used, the damage

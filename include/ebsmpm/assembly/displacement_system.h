@@ -115,6 +115,14 @@ namespace EBSMPM
     make_vector() const;
 
     /**
+     * Give @p vector the right distribution, and set it to zero. An assignment
+     * from make_vector() is not the same: if both vectors own the same range,
+     * deal.II keeps the ghost entries of the one on the left.
+     */
+    void
+    initialize_vector(LA::FieldVector &vector) const;
+
+    /**
      * Hold all points on the branch of the energy split that they are on now,
      * see EnergyBranch, in residuals and tangents to come. At boundary points,
      * not only the tangent jumps between branches but, through the last term of

@@ -1,0 +1,292 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+// Times of what happens in a load step besides linear solves: assembly for
+// displacement and damage, spaces, numbering of the points, and the crack
+// partition, on a block of quadratic B-splines with a fixed number of points
+// per cell. Sizes double; the last column is the exponent of the growth of the
+// time with the number of points.
+//
+// "BLAS-3" is the time that dgemm, for large matrices and in this process,
+// takes for the floating point operations of the dense products G^T(cG), as a
+// part of the time measured.
+//
+// Arguments: dimension (2), points per direction (3), the number of cells per
+// direction of the smallest block (16), and the number of sizes (4).
+
+#include <ebsmpm/fracture/crack_partition.h>
+#include <ebsmpm/materials/make_material.h>
+#include <ebsmpm/solvers/newton_solver.h>
+
+#include <ebsmpm/assembly/damage_system.h>
+
+#include <deal.II/base/conditional_ostream.h>
+#include <deal.II/base/timer.h>
+
+#include <deal.II/distributed/tria.h>
+
+#include <deal.II/grid/grid_generator.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <cstdlib>
+#include <iomanip>
+#include <iostream>
+#include <map>
+
+#include "../assembly/point_setup.h"
+
+
+
+/** The shortest of several measurements, in seconds, of the slowest process. */
+template <typename Function>
+double
+seconds(const Function &function, const unsigned int n_repetitions = 5)
+{
+  double result = std::numeric_limits<double>::max();
+  for (unsigned int i = 0; i < n_repetitions; ++i)
+    {
+      MPI_Barrier(MPI_COMM_WORLD);
+      Timer timer(MPI_COMM_WORLD, true);
+      function();
+      timer.stop();
+      result = std::min(result, timer.wall_time());
+    }
+  return result;
+}
+
+
+
+/** Floating point operations per second of dgemm. */
+double
+blas_speed()
+{
+  const unsigned int       n = 384;
+  LAPACKFullMatrix<double> A(n), B(n), C(n);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        A(i, j) = 1. / (1. + i + j);
+        B(i, j) = 1. / (1. + i * j);
+      }
+  return 2. * n * n * n / seconds([&]() { A.mmult(C, B); });
+}
+
+
+
+/** Prints lines, and remembers them for the growth with the size. */
+class Table
+{
+public:
+  explicit Table(const double blas)
+    : blas(blas)
+    , out(std::cout, Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+  {}
+
+  void
+  print(const std::string &what,
+        const double       n_points,
+        const double       time,
+        const double       flops = 0.)
+  {
+    out << "  " << std::left << std::setw(24) << what << std::right
+        << std::setprecision(3) << std::setw(10) << 1e3 * time << " ms"
+        << std::setw(10) << 1e-6 * n_points / time << " M/s";
+    if (flops > 0.)
+      out << std::setw(9) << 100. * flops / blas / time << " %";
+    else
+      out << std::setw(11) << "";
+    const auto found = previous.find(what);
+    if (found != previous.end())
+      out << std::setw(9)
+          << std::log(time / found->second.second) /
+               std::log(n_points / found->second.first);
+    out << std::endl;
+    previous[what] = {n_points, time};
+  }
+
+private:
+  const double                                     blas;
+  std::map<std::string, std::pair<double, double>> previous;
+
+public:
+  ConditionalOStream out;
+};
+
+
+
+template <int dim>
+void
+run(const unsigned int n_cells, const unsigned int n_per_direction, Table &table)
+{
+  // A frame of two empty cells around the block.
+  const double h = 1. / n_cells;
+  parallel::distributed::Triangulation<dim> triangulation(MPI_COMM_WORLD);
+  GridGenerator::subdivided_hyper_cube(triangulation,
+                                       n_cells + 4,
+                                       -2. * h,
+                                       1. + 2. * h);
+  Point<dim> upper;
+  for (unsigned int d = 0; d < dim; ++d)
+    upper[d] = 1.;
+  BodyOnGrid<dim> body(triangulation,
+                       BoxBody<dim>(Point<dim>(), upper),
+                       2,
+                       n_per_direction);
+
+  const auto   material = make_material<dim>("neo-Hookean",
+                                           EnergySplit::volumetric_deviatoric,
+                                           175.,
+                                           80.77);
+  const Degradation       degradation(1e-4);
+  DisplacementSystem<dim> u_system(*material, degradation, 1e6);
+  DamageSystem<dim>       d_system(2.7e-3, 2.5 * h);
+
+  const double n_points =
+    Utilities::MPI::sum(double(body.points.n_points()), MPI_COMM_WORLD);
+  table.out << dim << "-D, " << n_cells << " cells per direction, " << n_points
+            << " points, " << Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)
+            << " processes" << std::endl;
+
+  table.print("numbering of points", n_points, seconds([&]() {
+                body.points.reinit(body.material_handler, body.space.lattice());
+              }));
+  table.print("space and constraints", n_points, seconds([&]() {
+                body.make_space(0.1);
+              }));
+  table.print("groups, new matrix", n_points, seconds([&]() {
+                body.reinit(u_system);
+              }, 1));
+  table.print("groups, same matrix", n_points, seconds([&]() {
+                body.reinit(u_system);
+              }));
+  body.reinit(d_system);
+
+  // A crack through half of the block, between two rows of functions.
+  for (unsigned int q = 0; q < body.points.n_points(); ++q)
+    {
+      const Point<dim> &x = body.points.location(q);
+      const double      y = x[dim - 1] - 0.5 - 0.01 * h;
+      const double      r =
+        x[0] < 0.5 ? std::abs(y) : std::hypot(x[0] - 0.5, y);
+      body.state.damage[q]  = std::exp(-r / (2.5 * h));
+      body.state.history[q] = 0.;
+    }
+
+  // Of the pairs of components, only those on and above the diagonal.
+  const double n_functions = std::pow(3., dim);
+  const double flops =
+    n_points * dim * n_functions * 0.5 * dim * (dim + 1) * n_functions * 2.;
+
+  LA::FieldVector x = u_system.make_vector(), residual = x, update = x;
+  body.scatter_coefficients(x, dim);
+  x *= 1e-3 * h;
+  table.print("residual", n_points, seconds([&]() {
+                u_system.assemble_residual(
+                  body.state, body.boundary, x, residual);
+              }));
+  table.print("tangent and residual",
+              n_points,
+              seconds([&]() {
+                u_system.assemble_tangent(
+                  body.state, body.boundary, x, residual);
+              }),
+              flops);
+
+  LinearSolver solver;
+  solver.set_block_size(dim);
+  const double linear = seconds(
+    [&]() {
+      solver.invalidate();
+      solve_linear_system(solver, u_system.matrix(), residual, 1e-4, update);
+    },
+    1);
+  table.print("Newton iteration", n_points, linear + seconds([&]() {
+                                              u_system.assemble_tangent(
+                                                body.state,
+                                                body.boundary,
+                                                x,
+                                                residual);
+                                              solve_linear_system(
+                                                solver,
+                                                u_system.matrix(),
+                                                residual,
+                                                1e-4,
+                                                update);
+                                              u_system.assemble_residual(
+                                                body.state,
+                                                body.boundary,
+                                                x,
+                                                residual);
+                                            }, 1) - linear);
+  table.print("factorisation and solve", n_points, linear);
+  std::vector<double> psi;
+  table.print("driving energy", n_points, seconds([&]() {
+                u_system.driving_energy(body.state, x, psi);
+              }));
+
+  LA::FieldVector right_hand_side = d_system.make_vector();
+  table.print("damage matrix",
+              n_points,
+              seconds([&]() {
+                d_system.assemble(
+                  body.state, body.boundary, {}, right_hand_side);
+              }),
+              n_points * (dim + 1) * n_functions * n_functions * 2.);
+
+  // The crack partition. A second update finds frozen labels.
+  CrackPartition<dim> partition(body.space);
+  CrackLabels<dim>    labels, boundary_labels;
+  labels.resize(body.points.n_points());
+  boundary_labels.resize(body.boundary_points.n_points());
+  table.print("crack partition", n_points, seconds([&]() {
+                partition.update(body.points,
+                                 body.boundary_points,
+                                 body.state.volume,
+                                 body.state.damage,
+                                 labels,
+                                 boundary_labels);
+              }, 2));
+
+  Utilities::System::MemoryStats memory;
+  Utilities::System::get_memory_stats(memory);
+  table.out << "  " << 1024. * Utilities::MPI::sum(double(memory.VmHWM),
+                                                   MPI_COMM_WORLD) /
+                         n_points
+            << " bytes per point at most, program included" << std::endl;
+}
+
+
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+
+  const auto argument = [&](const int i, const unsigned int default_value) {
+    return argc > i ? static_cast<unsigned int>(std::atoi(argv[i])) :
+                      default_value;
+  };
+  const unsigned int dim     = argument(1, 2);
+  const unsigned int n       = argument(2, 3);
+  const unsigned int n_cells = argument(3, 16);
+  const unsigned int n_sizes = argument(4, 4);
+
+  const double blas = blas_speed();
+  Table        table(blas);
+  table.out << "dgemm: " << 1e-9 * blas << " Gflop/s\n"
+            << "  what                          time"
+            << "         points   BLAS-3   growth" << std::endl;
+  for (unsigned int size = 0, cells = n_cells; size < n_sizes;
+       ++size, cells *= 2)
+    if (dim == 2)
+      run<2>(cells, n, table);
+    else
+      run<3>(cells, n, table);
+}

@@ -1,0 +1,194 @@
+#!/usr/bin/python3
+# -----------------------------------------------------------------------------
+#
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the ebsmpm authors
+#
+# This file is part of the ebsmpm library.
+#
+# -----------------------------------------------------------------------------
+
+"""Whole runs of the program ebsmpm, checked by what they write.
+
+usage: check_runs.py PROGRAM SOURCE_DIR CASE
+
+Every case is a function below, named run_CASE; it raises an AssertionError
+where something is not as it should be.
+"""
+
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+
+PROGRAM, SOURCE, CASE = sys.argv[1:4]
+COARSE = os.path.join(SOURCE, "tutorials/step-5/coarse.prm")
+EXACT = ("independent_functions", "deficient_functions", "twin_functions")
+
+# A small version of coarse.prm that breaks completely, within seconds.
+SMALL = {
+    "Background grid/Cell size": "1/15",
+    "Damage/Length scale": "2.5*h",
+    "Loading/Increments": "0.004: 4e-4, 0.012: 1e-4",
+    "Loading/Stop below": "1e-9",
+    "Output/Interval": "0",
+}
+
+
+def call(directory, settings, ranks=1, arguments=(COARSE,)):
+    """Run the program; return the finished process."""
+    command = [PROGRAM, *arguments]
+    for name, value in settings.items():
+        command += ["--set", f"{name} = {value}"]
+    command += ["--set", f"Output/Directory = {directory}"]
+    if ranks > 1:
+        command = ["mpiexec", "--bind-to", "none", "-n", str(ranks)] + command
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def history(settings, ranks=1):
+    """Run the program; return its history as a list of dictionaries."""
+    with tempfile.TemporaryDirectory() as folder:
+        result = call(os.path.join(folder, "run"), settings, ranks)
+        assert result.returncode == 0, result.stdout[-2000:] + result.stderr
+        with open(os.path.join(folder, "run", "history.csv")) as file:
+            return [
+                {k: float(v) for k, v in row.items()}
+                for row in csv.DictReader(file)
+            ]
+
+
+def peak(table):
+    return max(abs(row["force"]) for row in table)
+
+
+def compare(a, b, what):
+    """The same functions, and the same forces to 1e-8 of the peak."""
+    assert len(a) == len(b), f"{what}: {len(a)} and {len(b)} steps"
+    forces = [k for k in a[0] if k.startswith("force")]
+    for x, y in zip(a, b):
+        for name in EXACT:
+            assert x[name] == y[name], f"{what}, step {x['step']:.0f}: {name}"
+        for name in forces:
+            difference = abs(x[name] - y[name]) / peak(a)
+            assert difference < 1e-8, (
+                f"{what}, step {x['step']:.0f}: {name} differs by {difference}"
+            )
+
+
+def check_separation(table, what):
+    """The load rises, falls to zero, and no unknowns were added for it."""
+    assert abs(table[-1]["force"]) < 1e-9 * peak(table), (
+        f"{what}: the force is still {table[-1]['force']}"
+    )
+    assert table[-1]["twin_functions"] > table[0]["twin_functions"], what
+    unknowns = [row["independent_functions"] for row in table]
+    assert unknowns[-1] <= unknowns[0], f"{what}: unknowns were added"
+
+
+def run_ranks():
+    """1, 2, 3, 4 processes give the same history, to full separation. With
+    Balance off, cells are distributed without regard to the points, so that
+    the border between processes is elsewhere, across the path of the crack."""
+    reference = history(SMALL)
+    check_separation(reference, "1 process")
+    for ranks in (2, 3, 4):
+        compare(reference, history(SMALL, ranks), f"{ranks} processes")
+    unbalanced = dict(SMALL, **{"Background grid/Balance": "false"})
+    compare(reference, history(unbalanced, 3), "3 processes, not balanced")
+
+
+def run_empty_ranks():
+    """Processes that have cells, but no points."""
+    settings = dict(
+        SMALL,
+        **{
+            "Background grid/Balance": "false",
+            "Background grid/Upper corner": "1+3*h, 1+40*h",
+            "Loading/Increments": "0.004: 4e-4, 0.0065: 1e-4",
+        },
+    )
+    compare(history(settings), history(settings, 4), "empty processes")
+
+
+def run_shifted():
+    """The crack plane between rows of control points, not on one."""
+    settings = dict(
+        SMALL,
+        **{
+            "Background grid/Lower corner": "-2.5*h, -2.5*h",
+            "Background grid/Upper corner": "1+3.5*h, 1+3.5*h",
+        },
+    )
+    check_separation(history(settings), "shifted by h/2")
+
+
+def run_gap():
+    """The notch as a gap of three cells; iterated to convergence."""
+    settings = dict(
+        SMALL,
+        **{
+            "Background grid/Cell size": "1/31",
+            "Notch/Type": "none",
+            "Body/Shape": "box(0,0, 1,1) - box(-1,0.5-1.5*h, 0.5,0.5+1.5*h)",
+            "Loading/Increments": "0.0044: 4e-4, 0.009: 1e-4",
+            "Staggered/Maximum passes": "500",
+        },
+    )
+    table = history(settings)
+    check_separation(table, "gap")
+
+    # Without the transition, the broken specimen still carries load.
+    settings["Crack partition/Enable"] = "false"
+    diffusive = history(settings)
+    assert diffusive[-1]["twin_functions"] == 0
+    assert abs(peak(diffusive) / peak(table) - 1.0) < 0.02, (
+        peak(diffusive),
+        peak(table),
+    )
+    assert abs(diffusive[-1]["force"]) > 1e-3 * peak(diffusive)
+
+
+def refuse(settings, words, arguments=(COARSE,)):
+    """A bad input ends with one sentence that contains the words, a status
+    that is not zero, and no output."""
+    with tempfile.TemporaryDirectory() as folder:
+        directory = os.path.join(folder, "run")
+        result = call(directory, settings, arguments=arguments)
+        assert result.returncode != 0, words
+        lines = result.stderr.strip().splitlines()
+        assert len(lines) == 1, result.stderr
+        for word in words:
+            assert word in lines[0], f"'{word}' is not in '{lines[0]}'"
+        assert not os.path.exists(directory), words
+
+
+def run_bad_input():
+    refuse({"Damage/Lenght scale": "1"}, ["Lenght scale", "Length scale"])
+    refuse({"Damage/Fracture energy": "-1"}, ["Damage/Fracture energy", "-1"])
+    refuse({"Damage/Length scale": "0"}, ["Damage/Length scale", "positive"])
+    refuse({"Background grid/Cell size": "1/"}, ["Background grid/Cell size"])
+    refuse({"Background grid/Degree": "4"}, ["Background grid/Degree", "4"])
+    refuse({"Loading/Increments": "1e-3"}, ["Loading/Increments"])
+    refuse({"Loading/Driven boundary": "left.x"}, ["Loading/Driven boundary"])
+    refuse({"Loading/Conditions": "left.x = 0"}, ["left"])
+    refuse({"Body/Shape": "box(0,0, 1"}, ["position"])
+    refuse({"Staggered/Maximum passes": "0"}, ["Staggered/Maximum passes"])
+    refuse({}, ["nothing.prm"], arguments=("nothing.prm",))
+
+    # Results are not overwritten unless one insists.
+    settings = dict(SMALL, **{"Loading/Increments": "4e-4: 4e-4"})
+    with tempfile.TemporaryDirectory() as folder:
+        directory = os.path.join(folder, "run")
+        assert call(directory, settings).returncode == 0
+        before = open(os.path.join(directory, "history.csv")).read()
+        result = call(directory, settings)
+        assert result.returncode != 0 and "history.csv" in result.stderr
+        assert open(os.path.join(directory, "history.csv")).read() == before
+        result = call(directory, settings, arguments=(COARSE, "--force"))
+        assert result.returncode == 0, result.stderr
+
+
+globals()["run_" + CASE]()
+print(f"{CASE}: OK")
