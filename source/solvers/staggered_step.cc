@@ -329,9 +329,16 @@ namespace EBSMPM
             u_system.driving_energy(state, u_increment, psi);
             for (unsigned int q = 0; q < points.n_points(); ++q)
               {
+                // What has become part of the discrete crack in this step is
+                // unloaded by that, but must not heal in the next pass.
                 const MaterialPoint<dim> point(points.properties(q));
+                const bool               is_separated =
+                  data.partition && labels.peak_damage[q] >
+                                      data.partition_data.damage_threshold;
                 if (point.damageable() != 0.)
-                  state.history[q] = std::max(point.history(), psi[q]);
+                  state.history[q] =
+                    std::max(is_separated ? state.history[q] : point.history(),
+                             psi[q]);
               }
           }
         if (converged)

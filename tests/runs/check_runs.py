@@ -91,11 +91,12 @@ def run_ranks():
     """1, 2, 3, 4 processes give the same history, to full separation. With
     Balance off, cells are distributed without regard to the points, so that
     the border between processes is elsewhere, across the path of the crack."""
-    reference = history(SMALL)
+    settings = dict(SMALL, **{"Loading/Increments": "0.004: 1e-3, 0.012: 3e-4"})
+    reference = history(settings)
     check_separation(reference, "1 process")
     for ranks in (2, 3, 4):
-        compare(reference, history(SMALL, ranks), f"{ranks} processes")
-    unbalanced = dict(SMALL, **{"Background grid/Balance": "false"})
+        compare(reference, history(settings, ranks), f"{ranks} processes")
+    unbalanced = dict(settings, **{"Background grid/Balance": "false"})
     compare(reference, history(unbalanced, 3), "3 processes, not balanced")
 
 
@@ -105,8 +106,8 @@ def run_empty_ranks():
         SMALL,
         **{
             "Background grid/Balance": "false",
-            "Background grid/Upper corner": "1+3*h, 1+40*h",
-            "Loading/Increments": "0.004: 4e-4, 0.0065: 1e-4",
+            "Background grid/Upper corner": "1+3*h, 1+16*h",
+            "Loading/Increments": "0.004: 1e-3, 0.0064: 3e-4",
         },
     )
     compare(history(settings), history(settings, 4), "empty processes")
@@ -117,8 +118,10 @@ def run_shifted():
     settings = dict(
         SMALL,
         **{
+            "Background grid/Cell size": "1/31",
             "Background grid/Lower corner": "-2.5*h, -2.5*h",
             "Background grid/Upper corner": "1+3.5*h, 1+3.5*h",
+            "Loading/Increments": "0.004: 4e-4, 0.012: 5e-5",
         },
     )
     check_separation(history(settings), "shifted by h/2")
@@ -129,7 +132,7 @@ def run_gap():
     settings = dict(
         SMALL,
         **{
-            "Background grid/Cell size": "1/31",
+            "Background grid/Cell size": "1/41",
             "Notch/Type": "none",
             "Body/Shape": "box(0,0, 1,1) - box(-1,0.5-1.5*h, 0.5,0.5+1.5*h)",
             "Loading/Increments": "0.0044: 4e-4, 0.009: 1e-4",
