@@ -122,10 +122,9 @@ namespace EBSMPM
     , pcout(screen != nullptr ? *screen : std::cout,
             screen != nullptr &&
               Utilities::MPI::this_mpi_process(communicator) == 0)
-    , timer(communicator,
-            pcout,
-            TimerOutput::never,
-            TimerOutput::wall_times)
+    // Without a communicator: sections are entered thousands of times, and with
+    // one, all processes would wait for each other every time.
+    , timer(pcout, TimerOutput::never, TimerOutput::wall_times)
   {
     penalty = parameters.nitsche.penalty > 0. ?
                 parameters.nitsche.penalty :

@@ -147,7 +147,7 @@ namespace EBSMPM
     {
       Newton();
 
-      double       tolerance              = 1e-9;
+      double       tolerance              = 1e-10;
       double       intermediate_tolerance = 1e-5;
       unsigned int maximum_iterations     = 25;
       unsigned int maximum_bisections     = 8;
@@ -160,7 +160,7 @@ namespace EBSMPM
 
       std::string  displacement       = "automatic";
       std::string  damage             = "automatic";
-      unsigned int refresh_iterations = 15;
+      unsigned int refresh_iterations = 6;
       unsigned int maximum_iterations = 500;
     } linear;
 
