@@ -374,8 +374,12 @@ namespace EBSMPM
             for (unsigned int i = 0; i < n; ++i)
               {
                 local[i].volume += B[i] * volumes[q] * labels.side[q].norm();
+                const Tensor<1, dim> axis = canonical(labels.side[q]);
                 for (unsigned int d = 0; d < dim; ++d)
-                  local[i].vector[d] += B[i] * volumes[q] * labels.side[q][d];
+                  {
+                    local[i].vector[d] += B[i] * volumes[q] * labels.side[q][d];
+                    local[i].axis[d] += B[i] * volumes[q] * axis[d];
+                  }
               }
           }
         for (unsigned int i = 0; i < n; ++i)
@@ -383,13 +387,19 @@ namespace EBSMPM
             Sums &sum = sums[space->cell_function(cell.index, cell.level, i)];
             sum.volume += local[i].volume;
             for (unsigned int d = 0; d < dim; ++d)
-              sum.vector[d] += local[i].vector[d];
+              {
+                sum.vector[d] += local[i].vector[d];
+                sum.axis[d] += local[i].axis[d];
+              }
           }
       }
     sums = directory.reduce(sums, [](Sums a, const Sums &b) {
       a.volume += b.volume;
       for (unsigned int d = 0; d < dim; ++d)
-        a.vector[d] += b.vector[d];
+        {
+          a.vector[d] += b.vector[d];
+          a.axis[d] += b.axis[d];
+        }
       return a;
     });
 
@@ -400,9 +410,12 @@ namespace EBSMPM
         if (sum.volume == 0.)
           continue;
         // As much material on either side: go to the fixed one.
-        const Tensor<1, dim> side = mean.norm() > tie * sum.volume ?
-                                      mean / mean.norm() :
-                                      to_tensor(entry.second.normal);
+        // (Points next to a slit have sides before there is a ridge.)
+        const Tensor<1, dim> axis = to_tensor(sum.axis);
+        const Tensor<1, dim> side =
+          mean.norm() > tie * sum.volume ? mean / mean.norm() :
+          axis.norm() > tie * sum.volume ? axis / axis.norm() :
+                                           to_tensor(entry.second.normal);
         entry.second.side         = to_array(side);
       }
   }

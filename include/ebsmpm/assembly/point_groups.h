@@ -59,7 +59,7 @@ namespace EBSMPM
   class PointGroups
   {
   public:
-    using Pattern = std::uint64_t;
+    using Pattern = ReadingPattern;
 
     /** Some points of a cell, and the functions they read. */
     struct Group

@@ -10,7 +10,6 @@
 #ifndef ebsmpm_fracture_crack_partition_h
 #define ebsmpm_fracture_crack_partition_h
 
-#include <ebsmpm/assembly/point_groups.h>
 #include <ebsmpm/particles/cell_points.h>
 #include <ebsmpm/splines/spline_space.h>
 
@@ -106,7 +105,7 @@ namespace EBSMPM
   class CrackPartition
   {
   public:
-    using Pattern = typename PointGroups<dim>::Pattern;
+    using Pattern = ReadingPattern;
     using Key     = FunctionKey<dim>;
 
     /** Parameters of the procedure. Lengths are in cells. */
@@ -213,6 +212,7 @@ namespace EBSMPM
       double                  volume = 0.;
       double                  value  = 0.;
       std::array<double, dim> vector{};
+      std::array<double, dim> axis{};
       unsigned int            owner = 0;
     };
 

@@ -92,6 +92,14 @@ namespace EBSMPM
 
 
   /**
+   * Which of the functions that its cell sees a point reads as twins: bit $i$
+   * is set if it reads the twin of function $i$.
+   */
+  using ReadingPattern = std::uint64_t;
+
+
+
+  /**
    * A hash of a FunctionKey: for unordered containers, and to choose the
    * process that keeps the books about a function (see FunctionDirectory).
    */
