@@ -40,6 +40,15 @@ namespace EBSMPM
 
 
 
+      /** The branch that a point is held on, if any is. */
+      inline EnergyBranch
+      branch_of(const std::vector<EnergyBranch> &branches, const unsigned int q)
+      {
+        return branches.empty() ? EnergyBranch::by_state : branches[q];
+      }
+
+
+
       /** The unmet part of the Dirichlet condition, in prescribed components. */
       template <int dim>
       inline Tensor<1, dim>
@@ -302,8 +311,7 @@ namespace EBSMPM
         const Tensor<2, dim>  F   = deformation<dim>(gradient, F_n);
         const double          V   = state.volume[q];
         const double          g   = degradation.value(state.damage[q]);
-        const EnergyBranch    branch =
-          branches.empty() ? EnergyBranch::by_state : branches[q];
+        const EnergyBranch    branch = branch_of(branches, q);
         if (task == Task::residual)
           material.stress(F, g, response.P, branch);
         else
@@ -412,9 +420,7 @@ namespace EBSMPM
         material.response(F,
                           g,
                           response,
-                          boundary_branches.empty() ?
-                            EnergyBranch::by_state :
-                            boundary_branches[q]);
+                          branch_of(boundary_branches, q));
         const Tensor<1, dim> PN = response.P * N;
 
         Tensor<2, dim> S;
@@ -691,9 +697,7 @@ namespace EBSMPM
                                                            boundary.F[q]),
                                           degradation.value(boundary.damage[q]),
                                           P,
-                                          boundary_branches.empty() ?
-                                            EnergyBranch::by_state :
-                                            boundary_branches[q]);
+                                          branch_of(boundary_branches, q));
                           const auto w    = mismatch(boundary, q, value);
                           const auto flux = boundary.area[q] *
                                             (P * boundary.normal[q] - beta * w);

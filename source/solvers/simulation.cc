@@ -105,7 +105,6 @@ namespace EBSMPM
     : parameters(parameters)
     , communicator(communicator)
     , overwrite(overwrite)
-    , screen(screen)
     , triangulation(communicator)
     , body(parse_shape<dim>(parameters.body.shape, constants(parameters)))
     , points(triangulation, mapping)

@@ -364,9 +364,10 @@ namespace Step5
               step->solve(*conditions,
                           load + increment,
                           previous > 0. ? increment / previous : 0.);
+            output(n + 1, load + increment, report);
+            ++n;
             load += increment;
             previous = increment;
-            output(++n, load, report);
           }
         catch (const ExcSolverFailure &)
           {

@@ -100,7 +100,6 @@ namespace EBSMPM
     const Parameters &parameters;
     const MPI_Comm    communicator;
     const Overwrite   overwrite;
-    std::ostream *    screen;
     std::ofstream     log_file;
 
     parallel::distributed::Triangulation<dim> triangulation;
