@@ -108,7 +108,7 @@ program=$build_root/release/bin/ebsmpm
 
 # The cores are shared by the two runs. Processes must not be bound to cores,
 # because the second run would be bound to those of the first.
-ranks=$(($(nproc) / ${#variants[@]}))
+ranks=$(($(number_of_cores) / ${#variants[@]}))
 if [ $ranks -gt 8 ]; then
   ranks=8
 fi

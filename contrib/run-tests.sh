@@ -57,4 +57,4 @@ find "$build_root/tests/tests" \( -name output -o -name diff \) -type f -delete
 
 say "Running the tests"
 cd "$build_root/tests"
-exec ctest -j "$(nproc)" --output-on-failure "$@"
+exec ctest -j "$(number_of_cores)" --output-on-failure "$@"

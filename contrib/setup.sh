@@ -41,12 +41,21 @@ fail()
 
 
 
+# How many cores there are. nproc by itself would count the threads that
+# set_environment() allows for.
+number_of_cores()
+{
+  env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc
+}
+
+
+
 # How many processes to compile with: one per core, as far as the memory goes.
 # Compiling a file that uses deal.II takes up to 1.5 GB.
 number_of_jobs()
 {
   local cores memory
-  cores=$(nproc)
+  cores=$(number_of_cores)
   memory=$(awk '/^MemAvailable:/ { print int($2 / 1500000) }' /proc/meminfo)
   if [ "${memory:-0}" -lt 1 ]; then
     memory=1
