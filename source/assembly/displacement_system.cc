@@ -216,6 +216,21 @@ namespace EBSMPM
 
   template <int dim>
   void
+  DisplacementSystem<dim>::assemble_predictor(
+    const MaterialState<dim> &state,
+    const BoundaryState<dim> &boundary,
+    const LA::FieldVector &   increment,
+    LA::FieldVector &         residual)
+  {
+    tangent.set_zero();
+    assemble(Task::predictor, state, boundary, increment, residual, &tangent);
+    tangent.compress();
+  }
+
+
+
+  template <int dim>
+  void
   DisplacementSystem<dim>::assemble(const Task                task,
                                     const MaterialState<dim> &state,
                                     const BoundaryState<dim> &boundary,
@@ -446,7 +461,7 @@ namespace EBSMPM
                   scratch.residual[J][i] += A0 * B[J] * (beta * w[i] - PN[i]);
                 }
 
-              if (task == Task::tangent)
+              if (task != Task::residual)
                 for (unsigned int I = 0; I < n; ++I)
                   for (unsigned int J = 0; J < n; ++J)
                     {

@@ -58,10 +58,11 @@ namespace EBSMPM
 
       /**
        * Look for a good step length: the full one if it reduces the residual,
-       * compared with the last few ones, or the slope of the energy; otherwise the point between where the slope
-       * is about zero. The energy has kinks in its second derivative, where
-       * points change from compression to expansion; there, the norm of the
-       * residual alone leads to cycles or to tiny steps.
+       * compared with the last few ones, or the slope of the energy; otherwise
+       * the point between where the slope is about zero. The energy has kinks
+       * in its second derivative, where points change from compression to
+       * expansion; there, the norm of the residual alone leads to cycles or to
+       * tiny steps.
        */
       template <typename Evaluate>
       Trial
@@ -108,7 +109,7 @@ namespace EBSMPM
                   trial.norm < best.norm)
               best = trial;
             if (is_good(trial))
-              break;
+              return trial;
             if (initial_slope < 0. && trial.slope < 0.)
               {
                 lower = trial;
@@ -187,7 +188,10 @@ namespace EBSMPM
             problem.smooth(x);
             report.smoothed = true;
           }
-        problem.tangent(x, residual);
+        if (report.iterations == 0 && problem.predictor)
+          problem.predictor(x, residual);
+        else
+          problem.tangent(x, residual);
 
         // As accurate as the nonlinear convergence can make use of.
         const double ratio = norm / previous;
@@ -203,7 +207,8 @@ namespace EBSMPM
           linear_solver, problem.matrix(), residual, eta, update);
         report.linear_iterations += linear.iterations;
         report.refreshes += linear.refreshed;
-        report.indefinite = report.indefinite || linear.indefinite;
+        report.indefinite_at_end = linear.indefinite;
+        report.indefinite        = report.indefinite || linear.indefinite;
 
         // R.update is the slope of the energy along the search direction, which
         // is negative at its beginning unless the tangent is indefinite.

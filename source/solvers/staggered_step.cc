@@ -409,6 +409,11 @@ namespace EBSMPM
       TimerOutput::Scope scope(*timer, "assemble tangent");
       u_system.assemble_tangent(state, boundary, x, r);
     };
+    if (report.passes == 1)
+      problem.predictor = [&](const LA::FieldVector &x, LA::FieldVector &r) {
+        TimerOutput::Scope scope(*timer, "assemble tangent");
+        u_system.assemble_predictor(state, boundary, x, r);
+      };
     problem.matrix = [&]() -> const LA::SparseMatrix & {
       return u_system.matrix();
     };

@@ -189,6 +189,15 @@ namespace Step5
 
     PointGenerator::FillData<dim> data;
     data.n_points_per_direction = parameters.body.n_points;
+    data.layout                 = parameters.body.layout == "Gauss" ?
+                                    PointGenerator::Layout::gauss :
+                                    PointGenerator::Layout::midpoint;
+    AssertThrow(parameters.body.regions.empty() &&
+                  parameters.body.undamageable.empty(),
+                ExcInput("This program has the same number of points in all "
+                         "cells, and all of them can be damaged: leave "
+                         "'Body/Regions' and 'Body/Undamageable' empty, or use "
+                         "the program ebsmpm."));
     PointGenerator::fill<dim>(*body, data, *points);
 
     std::vector<PointGenerator::BoundarySelection> selections;
@@ -217,20 +226,35 @@ namespace Step5
   // In step-5.prm, the notch is a gap in the body, and there is nothing to do.
   // In coarse.prm, it is a slit: the points next to it know from the start on
   // which side they are, which is what points next to a growing crack find
-  // out.
+  // out. Or there is a band of material that is damaged from the start: its
+  // history field is a thousand times what breaks the material.
   template <int dim>
   void
   TensionTest<dim>::make_notch()
   {
     const auto &notch = parameters.notch;
-    if (notch.type != "slit")
+    if (notch.type == "none")
       return;
+
+    const auto region =
+      parse_shape<dim>(notch.region,
+                       {{"h", parameters.cell_size()},
+                        {"l", parameters.length_scale()}});
+    if (notch.type == "damage")
+      {
+        Notch::initial_history<dim>(*region,
+                                    notch.history_factor *
+                                      parameters.damage.fracture_energy /
+                                      (2. * parameters.length_scale()),
+                                    *points);
+        return;
+      }
 
     Notch::Slit<dim> slit;
     slit.point = parameters.point<dim>("Notch/Plane point", notch.plane_point);
     slit.normal =
       parameters.point<dim>("Notch/Plane normal", notch.plane_normal);
-    slit.open_region  = parse_shape<dim>(notch.region);
+    slit.open_region  = region;
     slit.label_width  = parameters.number("Notch/Label width",
                                          notch.label_width);
     slit.damage_width = parameters.number("Notch/Damage width",
@@ -256,9 +280,11 @@ namespace Step5
                          energy_split_from_name(parameters.material.split),
                          ElasticConstants::bulk_modulus(E, nu),
                          ElasticConstants::shear_modulus(E, nu));
-    const double penalty = parameters.nitsche.penalty_factor *
-                           material->nitsche_stiffness() /
-                           parameters.cell_size();
+    const double penalty = parameters.nitsche.penalty > 0. ?
+                             parameters.nitsche.penalty :
+                             parameters.nitsche.penalty_factor *
+                               material->nitsche_stiffness() /
+                               parameters.cell_size();
     step = std::make_unique<StaggeredStep<dim>>(*points,
                                                 *boundary_points,
                                                 *material,

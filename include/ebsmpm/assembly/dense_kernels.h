@@ -16,7 +16,7 @@ namespace EBSMPM
 {
   /**
    * Small dense kernels of the assembly. They are compiled for several
-   * instruction sets, see EBSMPM_TARGET_CLONES.
+   * instruction sets, of which the best one is chosen at run time.
    */
   namespace DenseKernels
   {

@@ -152,6 +152,19 @@ namespace EBSMPM
                      LA::FieldVector &         residual);
 
     /**
+     * The same without the derivative of $\mathbf A$ in the last term, which is
+     * proportional to $\mathbf w$. It vanishes with $\mathbf w$ at the
+     * solution; but where a step begins, $\mathbf w$ is as large as the
+     * increment of the Dirichlet data, and the exact tangent is useless: for a
+     * linear material, the predictor meets the data in one step.
+     */
+    void
+    assemble_predictor(const MaterialState<dim> &state,
+                       const BoundaryState<dim> &boundary,
+                       const LA::FieldVector &   increment,
+                       LA::FieldVector &         residual);
+
+    /**
      * Subtract the virtual work of a body force per reference volume, given as
      * a function of the position at the start of the step.
      */
@@ -160,7 +173,7 @@ namespace EBSMPM
                    const TensorFunction<1, dim> &     force,
                    LA::FieldVector &                  residual) const;
 
-    /** The tangent of the last call of assemble_tangent(). */
+    /** The tangent, or predictor, that was assembled last. */
     const LA::SparseMatrix &
     matrix() const;
 
@@ -239,6 +252,7 @@ namespace EBSMPM
     enum class Task
     {
       residual,
+      predictor,
       tangent
     };
 

@@ -26,7 +26,9 @@ namespace EBSMPM
    * Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2), so that the last
    * steps are still quadratic. A trial step that turns a point inside out is
    * halved; one that reduces neither the residual nor the slope of the energy
-   * is replaced by one where that slope is about zero.
+   * is replaced by one where that slope is about zero. An indefinite tangent on
+   * the way is no reason to give up; whether one at the end is, the report
+   * leaves to the caller.
    *
    * @code
    * NewtonSolver newton(data);
@@ -68,6 +70,14 @@ namespace EBSMPM
       std::function<void(const LA::FieldVector &x, LA::FieldVector &residual)>
         tangent;
 
+      /**
+       * The same for the first iteration, with an approximation of the tangent
+       * that is good although the initial guess does not yet meet the Dirichlet
+       * conditions. May be empty; tangent() is called then.
+       */
+      std::function<void(const LA::FieldVector &x, LA::FieldVector &residual)>
+        predictor;
+
       /** The tangent. */
       std::function<const LA::SparseMatrix &()> matrix;
 
@@ -86,9 +96,16 @@ namespace EBSMPM
       unsigned int linear_iterations = 0;
       unsigned int refreshes         = 0;
       unsigned int bisections        = 0;
-      bool         indefinite        = false;
       bool         smoothed          = false;
-      double       residual          = 0.;
+
+      /** Whether the tangent of any iteration was found to be indefinite. */
+      bool indefinite = false;
+
+      /** The same of the last iteration, i.e., next to the solution. */
+      bool indefinite_at_end = false;
+
+      /** The norm of the residual at the end. */
+      double residual = 0.;
 
       /** Norms of the residual, before each iteration and at the end. */
       std::vector<double> residuals;
