@@ -10,6 +10,7 @@
 #include <ebsmpm/base/exceptions.h>
 
 #include <ebsmpm/lac/amg_hierarchy.h>
+#include <ebsmpm/lac/incomplete_cholesky.h>
 #include <ebsmpm/lac/klu_factorization.h>
 #include <ebsmpm/lac/linear_solver.h>
 #include <ebsmpm/lac/mumps_factorization.h>
@@ -40,6 +41,34 @@ namespace EBSMPM
       indefinite_matrix,
       indefinite_preconditioner,
       not_finite
+    };
+
+
+
+    /**
+     * The preconditioner in the present numbering of the unknowns.
+     */
+    class CurrentPreconditioner
+    {
+    public:
+      CurrentPreconditioner(const ReusablePreconditioner &preconditioner,
+                            const Renumbering *           renumbering)
+        : preconditioner(preconditioner)
+        , renumbering(renumbering)
+      {}
+
+      void
+      vmult(LA::Vector &dst, const LA::Vector &src) const
+      {
+        if (renumbering != nullptr)
+          renumbering->vmult(preconditioner, dst, src);
+        else
+          preconditioner.vmult(dst, src);
+      }
+
+    private:
+      const ReusablePreconditioner &preconditioner;
+      const Renumbering *const      renumbering;
     };
 
 
@@ -127,6 +156,22 @@ namespace EBSMPM
 
 
   void
+  LinearSolver::renumber(
+    const IndexSet &                            new_rows,
+    const std::vector<types::global_dof_index> &old_numbers)
+  {
+    // The same on all processes, because refresh() is collective.
+    if (!is_initialized)
+      return;
+    if (!renumbering)
+      renumbering = std::make_unique<Renumbering>(rows, communicator);
+    renumbering->renumber(new_rows, old_numbers);
+    rows = new_rows;
+  }
+
+
+
+  void
   LinearSolver::clear()
   {
     invalidate();
@@ -159,6 +204,7 @@ namespace EBSMPM
   LinearSolver::refresh(const LA::SparseMatrix &A)
   {
     is_initialized = false;
+    renumbering.reset();
     AssertThrow(std::isfinite(A.frobenius_norm()),
                 ExcSolverFailure(
                   "The matrix has an entry that is not a finite number."));
@@ -171,6 +217,8 @@ namespace EBSMPM
           preconditioner = std::make_unique<MumpsFactorization>();
         else if (new_method == Method::klu)
           preconditioner = std::make_unique<KluFactorization>();
+        else if (new_method == Method::cg_ic)
+          preconditioner = std::make_unique<IncompleteCholesky>();
         else
           preconditioner = std::make_unique<AmgHierarchy>();
         method = new_method;
@@ -184,6 +232,7 @@ namespace EBSMPM
     preconditioner->initialize(A);
     is_indefinite  = preconditioner->is_indefinite();
     rows           = A.locally_owned_range_indices();
+    communicator   = A.get_mpi_communicator();
     is_initialized = true;
   }
 
@@ -200,8 +249,9 @@ namespace EBSMPM
   {
     const ObservedOperator<LA::SparseMatrix> matrix(
       A, !use_gmres, Observation::indefinite_matrix);
-    const ObservedOperator<ReusablePreconditioner> inverse(
-      *preconditioner, !use_gmres, Observation::indefinite_preconditioner);
+    const CurrentPreconditioner current(*preconditioner, renumbering.get());
+    const ObservedOperator<CurrentPreconditioner> inverse(
+      current, !use_gmres, Observation::indefinite_preconditioner);
 
     SolverControl control(max_iterations, tolerance, false, false);
     Outcome       outcome = Outcome::converged;
@@ -288,6 +338,8 @@ namespace EBSMPM
                                   A.get_mpi_communicator()) == 1;
     if (same_rows && choose_method(A) == method)
       {
+        if (renumbering)
+          renumbering->set_diagonal(A);
         const Outcome outcome =
           iterate(A,
                   x,
@@ -371,6 +423,8 @@ namespace EBSMPM
       return Method::klu;
     if (name == "CG+AMG")
       return Method::cg_amg;
+    if (name == "CG+IC")
+      return Method::cg_ic;
     AssertThrow(name == "GMRES+AMG",
                 ExcParameter("Linear solver/Method",
                              name,
@@ -383,6 +437,6 @@ namespace EBSMPM
   std::string
   LinearSolver::method_names()
   {
-    return "automatic|MUMPS|KLU|CG+AMG|GMRES+AMG";
+    return "automatic|MUMPS|KLU|CG+AMG|GMRES+AMG|CG+IC";
   }
 } // namespace EBSMPM

@@ -105,7 +105,7 @@ namespace EBSMPM
     make_extension_constraints(d_space, d_constraints);
     if (d_system.reinit(
           points, boundary_points, d_space, d_constraints, {}, {}))
-      d_solver.clear();
+      renumber<1>(old_damage, d_space, d_solver);
     d_system.initialize_vector(d_field);
     if (old_damage.field.size() > 0)
       transfer<1>(old_damage, d_space, d_field);
@@ -141,7 +141,7 @@ namespace EBSMPM
                         partition.patterns(),
                         partition.boundary_patterns()))
       {
-        u_solver.clear();
+        renumber<dim>(old, u_space, u_solver);
         set_near_null_space();
       }
 
@@ -226,6 +226,39 @@ namespace EBSMPM
           field(n_components * entry.second.index + a) =
             snapshot.field(n_components * found->second.index + a);
       }
+  }
+
+
+
+  template <int dim>
+  template <int n_components>
+  void
+  StaggeredStep<dim>::renumber(const Snapshot &        snapshot,
+                               const SplineSpace<dim> &space,
+                               LinearSolver &          solver)
+  {
+    const auto &owned = space.locally_owned_independent();
+    std::vector<types::global_dof_index> old_numbers(
+      n_components * owned.n_elements(), numbers::invalid_dof_index);
+    IndexSet rows(n_components * space.n_independent());
+    if (owned.n_elements() > 0)
+      {
+        const auto first = owned.nth_index_in_set(0);
+        rows.add_range(n_components * first,
+                       n_components * (first + owned.n_elements()));
+        for (const auto &entry : space.functions())
+          if (owned.is_element(entry.second.index))
+            {
+              const auto found = snapshot.functions.find(entry.first);
+              if (found == snapshot.functions.end() ||
+                  found->second.index >= snapshot.n_independent)
+                continue;
+              for (unsigned int a = 0; a < n_components; ++a)
+                old_numbers[n_components * (entry.second.index - first) + a] =
+                  n_components * found->second.index + a;
+            }
+      }
+    solver.renumber(rows, old_numbers);
   }
 
 

@@ -160,7 +160,7 @@ def main():
     parser.add_argument("cases", nargs="*", metavar="CASE")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--table", action="store_true")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     cases = options.cases or list(CASES)
     for name in cases:
         if name not in CASES:

@@ -12,6 +12,7 @@
 
 #include <ebsmpm/base/config.h>
 
+#include <ebsmpm/lac/renumbering.h>
 #include <ebsmpm/lac/reusable_preconditioner.h>
 #include <ebsmpm/lac/types.h>
 
@@ -40,6 +41,7 @@ namespace EBSMPM
    * | klu       | KluFactorization, $LU$, serial      | if there is no MUMPS |
    * | cg_amg    | AmgHierarchy                        | large problems       |
    * | gmres_amg | AmgHierarchy, GMRES from the start  | indefinite matrices  |
+   * | cg_ic     | IncompleteCholesky                  | the damage           |
    * | automatic | mumps (else klu) below a number of entries, cg_amg above  ||
    *
    * Conjugate gradients need a positive definite matrix, but the tangent of a
@@ -71,7 +73,8 @@ namespace EBSMPM
    *
    * The matrix may be another object in every call, and of another size; what
    * the preconditioners keep of its sparsity pattern they compare by
-   * themselves.
+   * themselves. When the unknowns get other numbers, renumber() saves the
+   * preconditioner.
    */
   class LinearSolver
   {
@@ -85,7 +88,8 @@ namespace EBSMPM
       mumps,
       klu,
       cg_amg,
-      gmres_amg
+      gmres_amg,
+      cg_ic
     };
 
     /**
@@ -187,6 +191,19 @@ namespace EBSMPM
     set_near_null_space(const std::vector<LA::Vector> &vectors);
 
     /**
+     * Tell that the unknowns have been numbered anew, and possibly become more
+     * or fewer. The preconditioner stays in use for the unknowns that it knows,
+     * see Renumbering.
+     *
+     * @param rows the new numbers that this process owns
+     * @param old_numbers for each of them, the number before;
+     *   numbers::invalid_dof_index for a new unknown
+     */
+    void
+    renumber(const IndexSet &                            rows,
+             const std::vector<types::global_dof_index> &old_numbers);
+
+    /**
      * Forget everything, in order to release memory.
      */
     void
@@ -283,10 +300,18 @@ namespace EBSMPM
     std::unique_ptr<ReusablePreconditioner> preconditioner;
 
     /**
-     * Whether the preconditioner can be used, and for which rows.
+     * Whether the preconditioner can be used, for which rows, and where these
+     * are distributed.
      */
     bool     is_initialized = false;
     IndexSet rows;
+    MPI_Comm communicator = MPI_COMM_NULL;
+
+    /**
+     * The way back to the numbers that the preconditioner knows; none if there
+     * are no others.
+     */
+    std::unique_ptr<Renumbering> renumbering;
 
     /**
      * Whether the matrix that the preconditioner was computed from was found
