@@ -51,9 +51,25 @@ initlog(const std::string &file_name = "output")
 
 
 /**
- * The same for tests that run on several processes: each has a log of its own,
- * where every line starts with the rank, and at the end of the life of the
- * object they are joined in "output" in the order of the ranks.
+ * The same for tests that run on several processes, of which only the first has
+ * something to say; what the others write to deallog is forgotten. It must be
+ * called after MPI has been initialised.
+ */
+inline void
+mpi_initlog()
+{
+  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    initlog();
+  else
+    deallog.depth_console(0);
+}
+
+
+
+/**
+ * The same for tests in which all processes have something to say: each has a
+ * log of its own, where every line starts with the rank, and at the end of the
+ * life of the object they are joined in "output" in the order of the ranks.
  */
 class MPILogInitAll
 {

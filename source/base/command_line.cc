@@ -14,6 +14,8 @@
 
 #include <ebsmpm/base/command_line.h>
 #include <ebsmpm/base/exceptions.h>
+#include <ebsmpm/base/parameter_catalogue.h>
+#include <ebsmpm/base/text.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -21,379 +23,29 @@
 #include <boost/property_tree/ptree.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
-#include <map>
 #include <new>
-#include <numeric>
 #include <regex>
 #include <sstream>
 #include <utility>
 
 namespace EBSMPM
 {
+  using namespace Text;
+
   namespace
   {
     using Tree = boost::property_tree::ptree;
-
-    std::string
-    quote(const std::string &text)
-    {
-      return "'" + text + "'";
-    }
-
-
-
-    /**
-     * Replace all white space, ends of lines included, by single blanks.
-     */
-    std::string
-    in_one_line(const std::string &text)
-    {
-      std::istringstream words(text);
-      std::string        line;
-      for (std::string word; words >> word;)
-        line += (line.empty() ? "" : " ") + word;
-      return line;
-    }
-
-
-
-    bool
-    ends_with(const std::string &text, const std::string &end)
-    {
-      return text.size() >= end.size() &&
-             text.compare(text.size() - end.size(), end.size(), end) == 0;
-    }
-
-
-
-    /**
-     * Return "a, b and c", with @p last_word for "and".
-     */
-    std::string
-    enumerate(const std::vector<std::string> &items,
-              const std::string              &last_word)
-    {
-      std::string text;
-      for (unsigned int i = 0; i < items.size(); ++i)
-        {
-          if (i > 0)
-            text += (i + 1 == items.size()) ? " " + last_word + " " : ", ";
-          text += items[i];
-        }
-      return text;
-    }
-
-
-
-    /**
-     * Return in words what a pattern allows, given what
-     * Patterns::PatternBase::description() says about it; the end of a sentence
-     * that says what a value must be.
-     */
-    std::string
-    allowed_by(const std::string &pattern)
-    {
-      std::smatch match;
-
-      const auto range =
-        [](const std::string &kind, std::string low, std::string high) {
-          if (low == "-MAX_DOUBLE" || low == "-2147483648")
-            low.clear();
-          if (high == "MAX_DOUBLE" || high == "2147483647")
-            high.clear();
-          if (!low.empty() && !high.empty())
-            return kind + " from " + low + " to " + high;
-          if (!low.empty())
-            return kind + " of at least " + low;
-          if (!high.empty())
-            return kind + " of at most " + high;
-          return kind;
-        };
-      const std::string range_regex = R"((\S+)\.\.\.(\S+) \(inclusive\)\])";
-      if (std::regex_match(pattern,
-                           match,
-                           std::regex(R"(\[Double )" + range_regex)))
-        return range("a number", match[1], match[2]);
-      if (std::regex_match(pattern,
-                           match,
-                           std::regex(R"(\[Integer range )" + range_regex)))
-        return range("a whole number", match[1], match[2]);
-      if (pattern == "[Double]")
-        return "a number";
-      if (pattern == "[Integer]")
-        return "a whole number";
-      if (pattern == "[Bool]")
-        return "'true' or 'false'";
-
-      if (std::regex_match(pattern,
-                           match,
-                           std::regex(
-                             R"(\[(Multiple)?Selection ((?:.|\n)*)\])")))
-        {
-          std::vector<std::string> choices =
-            Utilities::split_string_list(match[2], '|');
-          for (std::string &choice : choices)
-            choice = quote(choice);
-          return match[1].matched ?
-                   "a list of any of " + enumerate(choices, "and") :
-                   enumerate(choices, "or");
-        }
-
-      if (std::regex_match(
-            pattern,
-            match,
-            std::regex(
-              R"(\[List of <(.*)> of length (\d+)\.\.\.(\d+) \(inclusive\))"
-              R"((?: separated by <(.*)>)?\])")))
-        {
-          std::string text = "a list of ";
-          if (match[2] == match[3])
-            text += match[2].str() + " entries";
-          else if (match[3] == "4294967295")
-            text += match[2] == "0" ? "entries" :
-                                      "at least " + match[2].str() + " entries";
-          else
-            text += match[2].str() + " to " + match[3].str() + " entries";
-          text += ", separated by '" +
-                  (match[4].matched ? match[4].str() : std::string(",")) + "'";
-          if (match[1] != "[Anything]")
-            text += ", each " + allowed_by(match[1]);
-          return text;
-        }
-
-      return "a value that matches " + in_one_line(pattern);
-    }
-
-
-
-    /**
-     * The number of letters to be inserted, removed or exchanged (Levenshtein's
-     * distance). The case of letters does not count.
-     */
-    unsigned int
-    distance(const std::string &a, const std::string &b)
-    {
-      std::vector<unsigned int> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0);
-      for (std::size_t i = 0; i < a.size(); ++i)
-        {
-          unsigned int diagonal = row[0];
-          row[0]                = i + 1;
-          for (std::size_t j = 0; j < b.size(); ++j)
-            {
-              const bool equal =
-                std::tolower(static_cast<unsigned char>(a[i])) ==
-                std::tolower(static_cast<unsigned char>(b[j]));
-              const unsigned int exchanged = diagonal + (equal ? 0 : 1);
-              diagonal                     = row[j + 1];
-              row[j + 1] = std::min({exchanged, row[j] + 1, row[j + 1] + 1});
-            }
-        }
-      return row[b.size()];
-    }
-
-
-
-    /**
-     * The part of a parameter's full name behind the last slash.
-     */
-    std::string
-    last_part(const std::string &name)
-    {
-      return name.substr(name.rfind('/') + 1);
-    }
-
-
-
-    /**
-     * The full names of all parameters of a ParameterHandler, and what they
-     * allow.
-     */
-    class Catalogue
-    {
-    public:
-      explicit Catalogue(const ParameterHandler &prm);
-
-      bool
-      has(const std::string &name) const;
-
-      /**
-       * Return what the parameter @p name allows, in words.
-       */
-      std::string
-      allowed(const std::string &name) const;
-
-      /**
-       * Return a sentence about the fact that there is no parameter @p name.
-       */
-      std::string
-      unknown(const std::string &name) const;
-
-      /**
-       * The same for a section.
-       */
-      std::string
-      unknown_section(const std::string &name) const;
-
-    private:
-      void
-      collect(const Tree &tree, const std::string &prefix);
-
-      /**
-       * Return up to three of @p candidates that look like @p name, the best
-       * first.
-       */
-      static std::vector<std::string>
-      similar(const std::string              &name,
-              const std::vector<std::string> &candidates);
-
-      std::map<std::string, std::string> patterns;
-      std::vector<std::string>           sections;
-    };
-
-
-
-    Catalogue::Catalogue(const ParameterHandler &prm)
-    {
-      // There is no interface that lists the parameters; a JSON file has them
-      // all, with the patterns.
-      std::stringstream stream;
-      prm.print_parameters(stream, ParameterHandler::JSON);
-      Tree tree;
-      boost::property_tree::read_json(stream, tree);
-      collect(tree, "");
-    }
-
-
-
-    void
-    Catalogue::collect(const Tree &tree, const std::string &prefix)
-    {
-      for (const auto &[key, child] : tree)
-        {
-          const std::string name = prefix + key;
-          if (child.count("value") > 0)
-            patterns[name] = child.get<std::string>("pattern_description", "");
-          else if (const auto alias = child.get_optional<std::string>("alias"))
-            {
-              const Tree &original = tree.find(*alias)->second;
-              patterns[name] =
-                original.get<std::string>("pattern_description", "");
-            }
-          else
-            {
-              sections.push_back(name);
-              collect(child, name + '/');
-            }
-        }
-    }
-
-
-
-    bool
-    Catalogue::has(const std::string &name) const
-    {
-      return patterns.count(name) > 0;
-    }
-
-
-
-    std::string
-    Catalogue::allowed(const std::string &name) const
-    {
-      return allowed_by(patterns.at(name));
-    }
-
-
-
-    std::string
-    Catalogue::unknown(const std::string &name) const
-    {
-      if (std::find(sections.begin(), sections.end(), name) != sections.end())
-        return quote(name) + " is a section, not a parameter";
-
-      std::vector<std::string> names;
-      for (const auto &entry : patterns)
-        names.push_back(entry.first);
-
-      const std::vector<std::string> suggestions = similar(name, names);
-      std::string text = "there is no parameter " + quote(name);
-      if (!suggestions.empty())
-        text += "; did you mean " + enumerate(suggestions, "or") + "?";
-      return text;
-    }
-
-
-
-    std::string
-    Catalogue::unknown_section(const std::string &name) const
-    {
-      const std::vector<std::string> suggestions = similar(name, sections);
-      std::string text = "there is no section " + quote(name);
-      if (!suggestions.empty())
-        text += "; did you mean " + enumerate(suggestions, "or") + "?";
-      return text;
-    }
-
-
-
-    std::vector<std::string>
-    Catalogue::similar(const std::string              &name,
-                       const std::vector<std::string> &candidates)
-    {
-      // A name that is right but for its section is as good as one with a
-      // single wrong letter.
-      std::vector<std::pair<unsigned int, std::string>> ranking;
-      for (const std::string &candidate : candidates)
-        {
-          const unsigned int whole = distance(name, candidate);
-          const unsigned int last =
-            distance(last_part(name), last_part(candidate));
-          if (whole <= 1 + name.size() / 5)
-            ranking.emplace_back(whole, candidate);
-          else if (last <= last_part(name).size() / 5)
-            ranking.emplace_back(last + 1, candidate);
-        }
-      std::sort(ranking.begin(), ranking.end());
-      if (ranking.size() > 3)
-        ranking.resize(3);
-
-      std::vector<std::string> result;
-      for (const auto &entry : ranking)
-        result.push_back(quote(entry.second));
-      return result;
-    }
-
-
-
-    /**
-     * End a sentence with a full stop, unless it has an end.
-     */
-    std::string
-    finish(std::string sentence)
-    {
-      while (!sentence.empty() &&
-             std::isspace(static_cast<unsigned char>(sentence.back())))
-        sentence.pop_back();
-      if (!sentence.empty() &&
-          std::string(".?!").find(sentence.back()) == std::string::npos)
-        sentence += '.';
-      return sentence;
-    }
-
-
 
     /**
      * Set the parameter with the full name @p name, which must exist. Throws
      * ExcParameter for a wrong value.
      */
     void
-    set_parameter(ParameterHandler  &prm,
-                  const Catalogue   &catalogue,
-                  const std::string &name,
-                  const std::string &value)
+    set_parameter(ParameterHandler         &prm,
+                  const ParameterCatalogue &catalogue,
+                  const std::string        &name,
+                  const std::string        &value)
     {
       std::vector<std::string> path;
       std::istringstream       stream(name);
@@ -456,7 +108,7 @@ namespace EBSMPM
      * Return, in one sentence, what ParameterHandler disliked about a prm file.
      */
     std::string
-    explain(const ExceptionBase &exception, const Catalogue *catalogue)
+    explain(const ExceptionBase &exception, const ParameterCatalogue *catalogue)
     {
       std::ostringstream stream;
       exception.print_info(stream);
@@ -481,9 +133,10 @@ namespace EBSMPM
             std::regex(R"(Line <(\d+)> of file <(.*)>: The entry value ?(.*) )"
                        R"(for the entry named (.*) does not match the given )"
                        R"(pattern: (\[.*\])\.?)")))
-        return finish(
-          where() + "the parameter " + quote(section() + match[4].str()) +
-          " is " + quote(match[3]) + ", but must be " + allowed_by(match[5]));
+        return finish(where() + "the parameter " +
+                      quote(section() + match[4].str()) + " is " +
+                      quote(match[3]) + ", but must be " +
+                      ParameterCatalogue::allowed_by(match[5]));
 
       if (std::regex_match(info,
                            match,
@@ -550,7 +203,8 @@ namespace EBSMPM
                            std::regex(R"(The string <(.*)> does not match )"
                                       R"(the given pattern <(\[.*\])>\.)")))
         return finish("The value of a parameter is " + quote(match[1]) +
-                      ", but must be " + allowed_by(match[2]));
+                      ", but must be " +
+                      ParameterCatalogue::allowed_by(match[2]));
 
       if (std::regex_match(info,
                            match,
@@ -600,9 +254,9 @@ namespace EBSMPM
 
 
     void
-    read_json_parameters(ParameterHandler  &prm,
-                         const Catalogue   &catalogue,
-                         const std::string &filename)
+    read_json_parameters(ParameterHandler         &prm,
+                         const ParameterCatalogue &catalogue,
+                         const std::string        &filename)
     {
       Tree tree;
       try
@@ -693,9 +347,12 @@ namespace EBSMPM
         else if (argument.compare(0, 6, "--set=") == 0)
           settings.push_back(argument.substr(6));
         else if (!argument.empty() && argument[0] == '-')
-          AssertThrow(false,
-                      ExcInput("There is no option " + quote(argument) +
-                               see_help)) else
+          {
+            AssertThrow(false,
+                        ExcInput("There is no option " + quote(argument) +
+                                 see_help));
+          }
+        else
           {
             AssertThrow(ends_with(argument, ".prm") ||
                           ends_with(argument, ".json"),
@@ -746,7 +403,7 @@ namespace EBSMPM
                 ExcInput("The parameter file " + quote(filename) +
                          " cannot be opened."));
 
-    const Catalogue catalogue(prm);
+    const ParameterCatalogue catalogue(prm);
     if (ends_with(filename, ".json"))
       read_json_parameters(prm, catalogue, filename);
     else if (ends_with(filename, ".prm"))
@@ -772,7 +429,7 @@ namespace EBSMPM
   apply_settings(ParameterHandler               &prm,
                  const std::vector<std::string> &settings)
   {
-    const Catalogue catalogue(prm);
+    const ParameterCatalogue catalogue(prm);
     for (const std::string &setting : settings)
       {
         const std::size_t equal = setting.find('=');

@@ -145,8 +145,7 @@ int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    initlog();
+  mpi_initlog();
 
   for (const std::string name :
        {"automatic", "MUMPS", "KLU", "CG+AMG", "GMRES+AMG"})

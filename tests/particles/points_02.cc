@@ -183,10 +183,7 @@ int
 main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    initlog();
-  else
-    deallog.depth_console(0);
+  mpi_initlog();
 
   test<2>(false);
   test<2>(true);

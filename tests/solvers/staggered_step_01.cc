@@ -19,11 +19,16 @@
 
 #include <deal.II/distributed/tria.h>
 
+#include <deal.II/fe/mapping_cartesian.h>
+
 #include <deal.II/grid/grid_generator.h>
+
+#include <memory>
 
 #include "../tests.h"
 
-#include "../assembly/point_setup.h"
+#include "../assembly/bodies.h"
+#include "../splines/verdict.h"
 
 
 
@@ -128,10 +133,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    initlog();
-  else
-    deallog.depth_console(0);
+  mpi_initlog();
 
   const auto        material = make_material<2>("neo-Hookean",
                                          EnergySplit::volumetric_deviatoric,
