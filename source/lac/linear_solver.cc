@@ -46,34 +46,6 @@ namespace EBSMPM
 
 
     /**
-     * The preconditioner in the present numbering of the unknowns.
-     */
-    class CurrentPreconditioner
-    {
-    public:
-      CurrentPreconditioner(const ReusablePreconditioner &preconditioner,
-                            const Renumbering *           renumbering)
-        : preconditioner(preconditioner)
-        , renumbering(renumbering)
-      {}
-
-      void
-      vmult(LA::Vector &dst, const LA::Vector &src) const
-      {
-        if (renumbering != nullptr)
-          renumbering->vmult(preconditioner, dst, src);
-        else
-          preconditioner.vmult(dst, src);
-      }
-
-    private:
-      const ReusablePreconditioner &preconditioner;
-      const Renumbering *const      renumbering;
-    };
-
-
-
-    /**
      * A matrix or a preconditioner as the iterations see it: with every product
      * it looks at the Rayleigh quotient. SolverCG computes the same numbers,
      * but does not tell their signs, and neither it nor SolverGMRES likes a
@@ -156,22 +128,6 @@ namespace EBSMPM
 
 
   void
-  LinearSolver::renumber(
-    const IndexSet &                            new_rows,
-    const std::vector<types::global_dof_index> &old_numbers)
-  {
-    // The same on all processes, because refresh() is collective.
-    if (!is_initialized)
-      return;
-    if (!renumbering)
-      renumbering = std::make_unique<Renumbering>(rows, communicator);
-    renumbering->renumber(new_rows, old_numbers);
-    rows = new_rows;
-  }
-
-
-
-  void
   LinearSolver::clear()
   {
     invalidate();
@@ -204,7 +160,6 @@ namespace EBSMPM
   LinearSolver::refresh(const LA::SparseMatrix &A)
   {
     is_initialized = false;
-    renumbering.reset();
     AssertThrow(std::isfinite(A.frobenius_norm()),
                 ExcSolverFailure(
                   "The matrix has an entry that is not a finite number."));
@@ -232,7 +187,6 @@ namespace EBSMPM
     preconditioner->initialize(A);
     is_indefinite  = preconditioner->is_indefinite();
     rows           = A.locally_owned_range_indices();
-    communicator   = A.get_mpi_communicator();
     is_initialized = true;
   }
 
@@ -249,9 +203,8 @@ namespace EBSMPM
   {
     const ObservedOperator<LA::SparseMatrix> matrix(
       A, !use_gmres, Observation::indefinite_matrix);
-    const CurrentPreconditioner current(*preconditioner, renumbering.get());
-    const ObservedOperator<CurrentPreconditioner> inverse(
-      current, !use_gmres, Observation::indefinite_preconditioner);
+    const ObservedOperator<ReusablePreconditioner> inverse(
+      *preconditioner, !use_gmres, Observation::indefinite_preconditioner);
 
     SolverControl control(max_iterations, tolerance, false, false);
     Outcome       outcome = Outcome::converged;
@@ -338,8 +291,6 @@ namespace EBSMPM
                                   A.get_mpi_communicator()) == 1;
     if (same_rows && choose_method(A) == method)
       {
-        if (renumbering)
-          renumbering->set_diagonal(A);
         const Outcome outcome =
           iterate(A,
                   x,

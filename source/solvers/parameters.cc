@@ -309,12 +309,15 @@ namespace EBSMPM
   {
     add_parameter("Displacement",
                   displacement,
-                  "Method for the displacement.",
+                  "Method for the displacement. 'automatic' means a "
+                  "factorisation if the matrix is not too large, else multigrid.",
                   prm,
                   Patterns::Selection(LinearSolver::method_names()));
     add_parameter("Damage",
                   damage,
-                  "Method for the damage.",
+                  "Method for the damage. 'automatic' means CG+IC if the length "
+                  "scale is less than 20 cells, else the same as for the "
+                  "displacement.",
                   prm,
                   Patterns::Selection(LinearSolver::method_names()));
     add_parameter("Refresh iterations",

@@ -255,6 +255,11 @@ namespace EBSMPM
     data.displacement_solver.max_iterations     = linear.maximum_iterations;
     data.damage_solver        = data.displacement_solver;
     data.damage_solver.method = LinearSolver::method_from_name(linear.damage);
+    // The condition number of the damage matrix is about (l/h)^2, on any number
+    // of cells; as long as this is not large, nothing beats a local method.
+    if (data.damage_solver.method == LinearSolver::Method::automatic &&
+        length_scale() < 20. * cell_size())
+      data.damage_solver.method = LinearSolver::Method::cg_ic;
     return data;
   }
 

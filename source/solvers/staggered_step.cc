@@ -105,7 +105,7 @@ namespace EBSMPM
     make_extension_constraints(d_space, d_constraints);
     if (d_system.reinit(
           points, boundary_points, d_space, d_constraints, {}, {}))
-      renumber<1>(old_damage, d_space, d_solver);
+      d_solver.clear();
     d_system.initialize_vector(d_field);
     if (old_damage.field.size() > 0)
       transfer<1>(old_damage, d_space, d_field);
@@ -141,7 +141,7 @@ namespace EBSMPM
                         partition.patterns(),
                         partition.boundary_patterns()))
       {
-        renumber<dim>(old, u_space, u_solver);
+        u_solver.clear();
         set_near_null_space();
       }
 
@@ -226,39 +226,6 @@ namespace EBSMPM
           field(n_components * entry.second.index + a) =
             snapshot.field(n_components * found->second.index + a);
       }
-  }
-
-
-
-  template <int dim>
-  template <int n_components>
-  void
-  StaggeredStep<dim>::renumber(const Snapshot &        snapshot,
-                               const SplineSpace<dim> &space,
-                               LinearSolver &          solver)
-  {
-    const auto &owned = space.locally_owned_independent();
-    std::vector<types::global_dof_index> old_numbers(
-      n_components * owned.n_elements(), numbers::invalid_dof_index);
-    IndexSet rows(n_components * space.n_independent());
-    if (owned.n_elements() > 0)
-      {
-        const auto first = owned.nth_index_in_set(0);
-        rows.add_range(n_components * first,
-                       n_components * (first + owned.n_elements()));
-        for (const auto &entry : space.functions())
-          if (owned.is_element(entry.second.index))
-            {
-              const auto found = snapshot.functions.find(entry.first);
-              if (found == snapshot.functions.end() ||
-                  found->second.index >= snapshot.n_independent)
-                continue;
-              for (unsigned int a = 0; a < n_components; ++a)
-                old_numbers[n_components * (entry.second.index - first) + a] =
-                  n_components * found->second.index + a;
-            }
-      }
-    solver.renumber(rows, old_numbers);
   }
 
 
@@ -404,7 +371,7 @@ namespace EBSMPM
     {
       TimerOutput::Scope scope(*timer, "solve damage");
       const auto         linear = solve_linear_system(
-        d_solver, d_system.matrix(), rhs, 1e-8, solution);
+        d_solver, d_system.matrix(), rhs, 1e-11, solution);
       report.linear_iterations += linear.iterations;
       report.refreshes += linear.refreshed;
     }

@@ -12,7 +12,6 @@
 
 #include <ebsmpm/base/config.h>
 
-#include <ebsmpm/lac/renumbering.h>
 #include <ebsmpm/lac/reusable_preconditioner.h>
 #include <ebsmpm/lac/types.h>
 
@@ -73,8 +72,7 @@ namespace EBSMPM
    *
    * The matrix may be another object in every call, and of another size; what
    * the preconditioners keep of its sparsity pattern they compare by
-   * themselves. When the unknowns get other numbers, renumber() saves the
-   * preconditioner.
+   * themselves.
    */
   class LinearSolver
   {
@@ -191,19 +189,6 @@ namespace EBSMPM
     set_near_null_space(const std::vector<LA::Vector> &vectors);
 
     /**
-     * Tell that the unknowns have been numbered anew, and possibly become more
-     * or fewer. The preconditioner stays in use for the unknowns that it knows,
-     * see Renumbering.
-     *
-     * @param rows the new numbers that this process owns
-     * @param old_numbers for each of them, the number before;
-     *   numbers::invalid_dof_index for a new unknown
-     */
-    void
-    renumber(const IndexSet &                            rows,
-             const std::vector<types::global_dof_index> &old_numbers);
-
-    /**
      * Forget everything, in order to release memory.
      */
     void
@@ -300,18 +285,10 @@ namespace EBSMPM
     std::unique_ptr<ReusablePreconditioner> preconditioner;
 
     /**
-     * Whether the preconditioner can be used, for which rows, and where these
-     * are distributed.
+     * Whether the preconditioner can be used, and for which rows.
      */
     bool     is_initialized = false;
     IndexSet rows;
-    MPI_Comm communicator = MPI_COMM_NULL;
-
-    /**
-     * The way back to the numbers that the preconditioner knows; none if there
-     * are no others.
-     */
-    std::unique_ptr<Renumbering> renumbering;
 
     /**
      * Whether the matrix that the preconditioner was computed from was found

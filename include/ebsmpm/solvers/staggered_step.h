@@ -244,13 +244,6 @@ namespace EBSMPM
              const SplineSpace<dim> &space,
              LA::FieldVector &       field);
 
-    /** Let a linear solver keep its preconditioner on a new space. */
-    template <int n_components>
-    static void
-    renumber(const Snapshot &        snapshot,
-             const SplineSpace<dim> &space,
-             LinearSolver &          solver);
-
     /** What cell_increment() and cell_damage() have in common. */
     template <int n_components>
     static void
