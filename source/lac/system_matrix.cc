@@ -16,6 +16,7 @@
 #include <Epetra_Map.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace EBSMPM
 {
@@ -57,6 +58,34 @@ namespace EBSMPM
     list_functions.swap(new_list_functions);
     list_begins.swap(new_list_begins);
 
+    // Where each function occurs: in which lists, and at which position there.
+    struct Occurrence
+    {
+      unsigned int list;
+      unsigned int position;
+    };
+    std::vector<unsigned int> occurrence_begins(n_known + 1, 0);
+    for (const auto function : list_functions)
+      ++occurrence_begins[function + 1];
+    std::partial_sum(occurrence_begins.begin(),
+                     occurrence_begins.end(),
+                     occurrence_begins.begin());
+    std::vector<Occurrence> occurrences(list_functions.size());
+    {
+      std::vector<unsigned int> next(occurrence_begins.begin(),
+                                     occurrence_begins.end() - 1);
+      for (unsigned int l = 0; l < lists.size(); ++l)
+        for (unsigned int i = 0; i < lists[l].size; ++i)
+          occurrences[next[lists[l].begin[i]]++] = {l, i};
+    }
+    const auto for_each_occurrence = [&](const unsigned int function,
+                                         const auto &       visit) {
+      for (unsigned int k = occurrence_begins[function];
+           k < occurrence_begins[function + 1];
+           ++k)
+        visit(occurrences[k].list, occurrences[k].position);
+    };
+
     // Couple functions first, and their components afterwards.
     const IndexSet &owned    = functions.locally_owned_range();
     IndexSet        relevant = owned;
@@ -65,14 +94,21 @@ namespace EBSMPM
                                     functions.size(),
                                     relevant);
     std::vector<types::global_dof_index> row;
-    for (const auto &list : lists)
+    std::vector<unsigned int>            seen_by(n_known,
+                                      numbers::invalid_unsigned_int);
+    for (unsigned int f = 0; f < n_known; ++f)
       {
-        row.resize(list.size);
-        for (unsigned int j = 0; j < list.size; ++j)
-          row[j] = global_functions[list.begin[j]];
+        row.clear();
+        for_each_occurrence(f, [&](const unsigned int l, const unsigned int) {
+          for (unsigned int j = 0; j < lists[l].size; ++j)
+            if (seen_by[lists[l].begin[j]] != f)
+              {
+                seen_by[lists[l].begin[j]] = f;
+                row.push_back(global_functions[lists[l].begin[j]]);
+              }
+        });
         std::sort(row.begin(), row.end());
-        for (const auto i : row)
-          coupling.add_entries(i, row.begin(), row.end(), true);
+        coupling.add_entries(global_functions[f], row.begin(), row.end(), true);
       }
     SparsityTools::distribute_sparsity_pattern(coupling,
                                                owned,
@@ -115,46 +151,39 @@ namespace EBSMPM
         column_of[nc * i + c] =
           epetra.LCID(static_cast<int>(nc * global_functions[i] + c));
 
+    // The places of a list, row by row; those in rows of others are not used.
     place_begins.assign(1, 0);
-    places.clear();
-    scattered_places.clear();
     for (const auto &list : lists)
+      place_begins.push_back(place_begins.back() + list.size * list.size);
+    places.assign(place_begins.back(), -1);
+    scattered_places.clear();
+    std::vector<int> place_of(epetra.NumMyCols());
+    for (unsigned int f = 0; f < n_owned; ++f)
       {
-        for (unsigned int i = 0; i < list.size; ++i)
-          {
-            const unsigned int function = list.begin[i];
-            for (unsigned int j = 0; j < list.size; ++j)
-              {
-                if (function >= n_owned)
-                  {
-                    places.push_back(-1);
-                    continue;
-                  }
-                const int *begin = column_numbers + begins[nc * function];
-                const int *end   = column_numbers + begins[nc * function + 1];
-                const auto place_of = [&](const int column) {
-                  const int *found = std::lower_bound(begin, end, column);
-                  Assert(found != end && *found == column, ExcInternalError());
-                  return static_cast<int>(found - begin);
-                };
-                const int *columns_j   = column_of.data() + nc * list.begin[j];
-                const int  first_place = place_of(columns_j[0]);
-                bool       consecutive = true;
-                for (unsigned int b = 1; b < nc; ++b)
-                  consecutive &= (place_of(columns_j[b]) ==
-                                  first_place + static_cast<int>(b));
-                if (consecutive)
-                  places.push_back(first_place);
-                else
-                  {
-                    places.push_back(-1 -
-                                     static_cast<int>(scattered_places.size()));
-                    for (unsigned int b = 0; b < nc; ++b)
-                      scattered_places.push_back(place_of(columns_j[b]));
-                  }
-              }
-          }
-        place_begins.push_back(places.size());
+        const int *begin = column_numbers + begins[nc * f];
+        const int *end   = column_numbers + begins[nc * f + 1];
+        for (const int *column = begin; column != end; ++column)
+          place_of[*column] = column - begin;
+
+        for_each_occurrence(f, [&](const unsigned int l, const unsigned int i) {
+          int *place = places.data() + place_begins[l] + i * lists[l].size;
+          for (unsigned int j = 0; j < lists[l].size; ++j)
+            {
+              const int *columns_j = column_of.data() + nc * lists[l].begin[j];
+              bool       consecutive = true;
+              for (unsigned int b = 1; b < nc; ++b)
+                consecutive &= (place_of[columns_j[b]] ==
+                                place_of[columns_j[0]] + static_cast<int>(b));
+              if (consecutive)
+                place[j] = place_of[columns_j[0]];
+              else
+                {
+                  place[j] = -1 - static_cast<int>(scattered_places.size());
+                  for (unsigned int b = 0; b < nc; ++b)
+                    scattered_places.push_back(place_of[columns_j[b]]);
+                }
+            }
+        });
       }
     return true;
   }
