@@ -7,11 +7,13 @@
 //
 // -----------------------------------------------------------------------------
 
-#include <ebsmpm/assembly/dense_kernels.h>
+#include <ebsmpm/base/exceptions.h>
+
+#include <ebsmpm/splines/bspline_kernel.h>
+
 #include <ebsmpm/assembly/displacement_system.h>
 #include <ebsmpm/assembly/field_evaluation.h>
-#include <ebsmpm/base/exceptions.h>
-#include <ebsmpm/splines/bspline_kernel.h>
+#include <ebsmpm/assembly/point_values.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -20,63 +22,15 @@
 
 namespace EBSMPM
 {
-  namespace internal
-  {
-    namespace DisplacementSystemImplementation
-    {
-      /** $(\mathbf I+\nabla_n\Delta\mathbf u)\mathbf F_n$. */
-      template <int dim>
-      inline Tensor<2, dim>
-      deformation(const std::array<Tensor<1, dim>, dim> &gradient,
-                  const Tensor<2, dim> &                 F_n)
-      {
-        Tensor<2, dim> F = F_n;
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            for (unsigned int k = 0; k < dim; ++k)
-              F[i][k] += gradient[i][j] * F_n[j][k];
-        return F;
-      }
-
-
-
-      /** The branch that a point is held on, if any is. */
-      inline EnergyBranch
-      branch_of(const std::vector<EnergyBranch> &branches, const unsigned int q)
-      {
-        return branches.empty() ? EnergyBranch::by_state : branches[q];
-      }
-
-
-
-      /** The unmet part of the Dirichlet condition, in prescribed components. */
-      template <int dim>
-      inline Tensor<1, dim>
-      mismatch(const BoundaryState<dim> &boundary,
-               const unsigned int        q,
-               const Tensor<1, dim> &    increment)
-      {
-        Tensor<1, dim> w;
-        for (unsigned int i = 0; i < dim; ++i)
-          if (boundary.constrained[q][i])
-            w[i] = boundary.displacement[q][i] + increment[i] -
-                   boundary.prescribed[q][i];
-        return w;
-      }
-    } // namespace DisplacementSystemImplementation
-  }   // namespace internal
-
-  using namespace internal::DisplacementSystemImplementation;
-
-
-
   template <int dim>
   DisplacementSystem<dim>::DisplacementSystem(const Material<dim> &material,
-                                              const Degradation &  degradation,
+                                              const Degradation   &degradation,
                                               const double         penalty)
     : material(material)
     , degradation(degradation)
     , beta(penalty)
+    , elastic_terms(material, degradation)
+    , nitsche_terms(material, degradation, penalty)
   {}
 
 
@@ -108,23 +62,11 @@ namespace EBSMPM
         lists.push_back({groups->functions(group), group.n_functions});
     const bool is_new = tangent.reinit(*functions, dim, lists);
 
-    const unsigned int n = space.n_functions_per_cell();
-    const unsigned int m =
-      std::max({n,
-                material_groups.max_n_functions(),
-                boundary_groups.max_n_functions()});
-    const unsigned int n_pairs = dim * (dim + 1) / 2;
-    const unsigned int n_points =
-      std::max(material_groups.max_n_points(), 1U);
-    scratch.coefficients.resize(n);
-    scratch.B.resize(n);
-    scratch.G.resize(dim * n_points * n);
-    scratch.CG.assign(dim * n_points * DenseKernels::padded(n_pairs * n), 0.);
-    scratch.product.resize(n * DenseKernels::padded(n_pairs * n));
-    scratch.residual.resize(m);
-    scratch.matrix.resize(dim * dim * m * m);
-    scratch.pair.resize(dim * dim * n * n);
-    scratch.half.resize(n * m);
+    local.initialize(space,
+                     std::max(material_groups.max_n_functions(),
+                              boundary_groups.max_n_functions()));
+    elastic_terms.initialize(space.n_functions_per_cell(),
+                             material_groups.max_n_points());
     return is_new;
   }
 
@@ -155,25 +97,22 @@ namespace EBSMPM
                                          const LA::FieldVector &   increment)
   {
     increment.update_ghost_values();
-    const auto hold = [&](const CellPoints<dim> &            cell_points,
-                          const PointGroups<dim> &           groups,
-                          const std::vector<Tensor<2, dim>> &F_n,
-                          std::vector<EnergyBranch> &        result) {
-      result.resize(cell_points.n_points());
-      evaluate_field<dim>(cell_points,
-                          groups,
-                          spline_space->lattice(),
-                          spline_space->degree(),
-                          increment,
-                          [&](const unsigned int q,
-                              const Tensor<1, dim> &,
-                              const std::array<Tensor<1, dim>, dim> &gradient) {
-                            result[q] = material.branch(
-                              deformation<dim>(gradient, F_n[q]));
-                          });
-    };
-    hold(*points, material_groups, state.F, branches);
-    hold(*boundary_points, boundary_groups, boundary.F, boundary_branches);
+    branches.resize(points->n_points());
+    evaluate_material(state,
+                      increment,
+                      [&](const unsigned int q,
+                          const Tensor<1, dim> &,
+                          const Tensor<2, dim> &F) {
+                        branches[q] = material.branch(F);
+                      });
+    boundary_branches.resize(boundary_points->n_points());
+    evaluate_boundary(boundary,
+                      increment,
+                      [&](const unsigned int q,
+                          const Tensor<1, dim> &,
+                          const Tensor<2, dim> &F) {
+                        boundary_branches[q] = material.branch(F);
+                      });
   }
 
 
@@ -195,7 +134,8 @@ namespace EBSMPM
                                              const LA::FieldVector &increment,
                                              LA::FieldVector &residual) const
   {
-    assemble(Task::residual, state, boundary, increment, residual, nullptr);
+    assemble(
+      AssemblyTask::residual, state, boundary, increment, residual, nullptr);
   }
 
 
@@ -208,7 +148,8 @@ namespace EBSMPM
                                             LA::FieldVector &         residual)
   {
     tangent.set_zero();
-    assemble(Task::tangent, state, boundary, increment, residual, &tangent);
+    assemble(
+      AssemblyTask::tangent, state, boundary, increment, residual, &tangent);
     tangent.compress();
   }
 
@@ -223,7 +164,8 @@ namespace EBSMPM
     LA::FieldVector &         residual)
   {
     tangent.set_zero();
-    assemble(Task::predictor, state, boundary, increment, residual, &tangent);
+    assemble(
+      AssemblyTask::predictor, state, boundary, increment, residual, &tangent);
     tangent.compress();
   }
 
@@ -231,12 +173,12 @@ namespace EBSMPM
 
   template <int dim>
   void
-  DisplacementSystem<dim>::assemble(const Task                task,
+  DisplacementSystem<dim>::assemble(const AssemblyTask        task,
                                     const MaterialState<dim> &state,
                                     const BoundaryState<dim> &boundary,
-                                    const LA::FieldVector &   increment,
-                                    LA::FieldVector &         residual,
-                                    SystemMatrix *            matrix) const
+                                    const LA::FieldVector    &increment,
+                                    LA::FieldVector          &residual,
+                                    SystemMatrix             *matrix) const
   {
     increment.update_ghost_values();
     residual = 0.;
@@ -246,25 +188,7 @@ namespace EBSMPM
     std::string failure;
     try
       {
-        unsigned int list = 0;
-        for (const auto &group : material_groups.groups())
-          {
-            gather_coefficients<dim>(material_groups,
-                                     group,
-                                     increment,
-                                     scratch.coefficients.data());
-            material_group(task, group, state);
-            distribute(task, material_groups, group, list++, residual, matrix);
-          }
-        for (const auto &group : boundary_groups.groups())
-          {
-            gather_coefficients<dim>(boundary_groups,
-                                     group,
-                                     increment,
-                                     scratch.coefficients.data());
-            boundary_group(task, group, boundary);
-            distribute(task, boundary_groups, group, list++, residual, matrix);
-          }
+        add_groups(task, state, boundary, increment, residual, matrix);
       }
     catch (const ExcSolverFailure &exception)
       {
@@ -293,279 +217,32 @@ namespace EBSMPM
 
   template <int dim>
   void
-  DisplacementSystem<dim>::material_group(
-    const Task                              task,
-    const typename PointGroups<dim>::Group &group,
-    const MaterialState<dim> &              state) const
+  DisplacementSystem<dim>::add_groups(const AssemblyTask        task,
+                                      const MaterialState<dim> &state,
+                                      const BoundaryState<dim> &boundary,
+                                      const LA::FieldVector    &increment,
+                                      LA::FieldVector          &residual,
+                                      SystemMatrix             *matrix) const
   {
-    constexpr unsigned int   n_pairs = dim * (dim + 1) / 2;
-    const BSplineKernel<dim> kernel(spline_space->degree());
-    const unsigned int       n      = kernel.n_functions();
-    const unsigned int       stride = DenseKernels::padded(n_pairs * n);
-    const Tensor<1, dim>     inverse_h = inverse_extents(*points, group.cell);
-
-    std::fill_n(scratch.residual.begin(), n, Tensor<1, dim>());
-
-    typename Material<dim>::Response response;
-    double *                         G  = scratch.G.data();
-    double *                         CG = scratch.CG.data();
-    for (unsigned int k = group.begin; k < group.end;
-         ++k, G += dim * n, CG += dim * stride)
+    unsigned int list = 0;
+    for (const auto &group : material_groups.groups())
       {
-        const unsigned int q = material_groups.point(k);
-        kernel.values_and_gradients(
-          points->unit_point(q), inverse_h, scratch.B.data(), G, n);
-
-        std::array<Tensor<1, dim>, dim> gradient;
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int d = 0; d < dim; ++d)
-              gradient[a][d] += scratch.coefficients[i][a] * G[d * n + i];
-
-        const Tensor<2, dim> &F_n = state.F[q];
-        const Tensor<2, dim>  F   = deformation<dim>(gradient, F_n);
-        const double          V   = state.volume[q];
-        const double          g   = degradation.value(state.damage[q]);
-        const EnergyBranch    branch = branch_of(branches, q);
-        if (task == Task::residual)
-          material.stress(F, g, response.P, branch);
-        else
-          material.response(F, g, response, branch);
-
-        const Tensor<2, dim> stress = V * response.P * transpose(F_n);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int d = 0; d < dim; ++d)
-              scratch.residual[i][a] += stress[a][d] * G[d * n + i];
-
-        if (task == Task::residual)
-          continue;
-
-        // c_{ijkl} = V F_{jB} A_{iBkD} F_{lD}, for i<=k only, times G.
-        for (unsigned int i = 0, pair = 0; i < dim; ++i)
-          for (unsigned int kk = i; kk < dim; ++kk, ++pair)
-            {
-              Tensor<2, dim> A;
-              for (unsigned int b = 0; b < dim; ++b)
-                for (unsigned int d = 0; d < dim; ++d)
-                  A[b][d] = V * response.A[i][b][kk][d];
-              const Tensor<2, dim> c = F_n * A * transpose(F_n);
-              for (unsigned int j = 0; j < dim; ++j)
-                {
-                  double *row = CG + j * stride + pair * n;
-                  for (unsigned int J = 0; J < n; ++J)
-                    {
-                      double sum = c[j][0] * G[J];
-                      for (unsigned int l = 1; l < dim; ++l)
-                        sum += c[j][l] * G[l * n + J];
-                      row[J] = sum;
-                    }
-                }
-            }
+        local.reinit(*points, material_groups, group);
+        local.gather(increment);
+        elastic_terms.compute(task, state, branches, local);
+        local.distribute_residual(residual);
+        if (task != AssemblyTask::residual)
+          local.distribute_tangent(list++, *matrix);
       }
-
-    if (task == Task::residual)
-      return;
-
-    DenseKernels::transposed_product(dim * (group.end - group.begin),
-                                     n,
-                                     stride,
-                                     scratch.G.data(),
-                                     n,
-                                     scratch.CG.data(),
-                                     scratch.product.data());
-
-    // Unfold into a matrix per pair of components, the lower ones by symmetry.
-    for (unsigned int i = 0, pair = 0; i < dim; ++i)
-      for (unsigned int k = i; k < dim; ++k, ++pair)
-        for (unsigned int I = 0; I < n; ++I)
-          for (unsigned int J = 0; J < n; ++J)
-            {
-              const double value = scratch.product[I * stride + pair * n + J];
-              scratch.pair[((i * dim + k) * n + I) * n + J] = value;
-              if (k != i)
-                scratch.pair[((k * dim + i) * n + J) * n + I] = value;
-            }
-  }
-
-
-
-  template <int dim>
-  void
-  DisplacementSystem<dim>::boundary_group(
-    const Task                              task,
-    const typename PointGroups<dim>::Group &group,
-    const BoundaryState<dim> &              boundary) const
-  {
-    const BSplineKernel<dim> kernel(spline_space->degree());
-    const unsigned int       n = kernel.n_functions();
-    const Tensor<1, dim>     inverse_h =
-      inverse_extents(*boundary_points, group.cell);
-
-    std::fill_n(scratch.residual.begin(), n, Tensor<1, dim>());
-    std::fill_n(scratch.pair.begin(), dim * dim * n * n, 0.);
-
-    std::array<double, BSplineKernel<dim>::max_n_functions>       B;
-    std::array<double, dim * BSplineKernel<dim>::max_n_functions> G;
-    std::array<Tensor<1, dim>, BSplineKernel<dim>::max_n_functions> traction;
-    typename Material<dim>::Response                                response;
-
-    for (unsigned int k = group.begin; k < group.end; ++k)
+    for (const auto &group : boundary_groups.groups())
       {
-        const unsigned int q = boundary_groups.point(k);
-        kernel.values_and_gradients(
-          boundary_points->unit_point(q), inverse_h, B.data(), G.data(), n);
-
-        Tensor<1, dim>                  value;
-        std::array<Tensor<1, dim>, dim> gradient;
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int a = 0; a < dim; ++a)
-            {
-              value[a] += scratch.coefficients[i][a] * B[i];
-              for (unsigned int d = 0; d < dim; ++d)
-                gradient[a][d] += scratch.coefficients[i][a] * G[d * n + i];
-            }
-
-        const Tensor<2, dim> &F_n = boundary.F[q];
-        const Tensor<2, dim>  F   = deformation<dim>(gradient, F_n);
-        const double          g   = degradation.value(boundary.damage[q]);
-        const Tensor<1, dim> &N   = boundary.normal[q];
-        const double          A0  = boundary.area[q];
-        const Tensor<1, dim>  w   = mismatch(boundary, q, value);
-        material.response(F,
-                          g,
-                          response,
-                          branch_of(boundary_branches, q));
-        const Tensor<1, dim> PN = response.P * N;
-
-        Tensor<2, dim> S;
-        for (unsigned int i = 0; i < dim; ++i)
-          if (boundary.constrained[q][i])
-            {
-              // The traction in direction i due to function J, component k:
-              // (A : grad_X)_i N = N_B A_{iBkD} F_{lD} dB_J/dx_l.
-              Tensor<2, dim> NA;
-              for (unsigned int b = 0; b < dim; ++b)
-                for (unsigned int kk = 0; kk < dim; ++kk)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    NA[kk][d] += N[b] * response.A[i][b][kk][d];
-              NA = NA * transpose(F_n);
-              S += w[i] * NA;
-
-              for (unsigned int J = 0; J < n; ++J)
-                {
-                  traction[J] = Tensor<1, dim>();
-                  for (unsigned int kk = 0; kk < dim; ++kk)
-                    for (unsigned int l = 0; l < dim; ++l)
-                      traction[J][kk] += NA[kk][l] * G[l * n + J];
-                  scratch.residual[J][i] += A0 * B[J] * (beta * w[i] - PN[i]);
-                }
-
-              if (task != Task::residual)
-                for (unsigned int I = 0; I < n; ++I)
-                  for (unsigned int J = 0; J < n; ++J)
-                    {
-                      scratch.pair[((i * dim + i) * n + I) * n + J] +=
-                        A0 * beta * B[I] * B[J];
-                      for (unsigned int kk = 0; kk < dim; ++kk)
-                        {
-                          scratch.pair[((i * dim + kk) * n + I) * n + J] -=
-                            A0 * B[I] * traction[J][kk];
-                          scratch.pair[((kk * dim + i) * n + J) * n + I] -=
-                            A0 * B[I] * traction[J][kk];
-                        }
-                    }
-            }
-
-        for (unsigned int I = 0; I < n; ++I)
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int l = 0; l < dim; ++l)
-              scratch.residual[I][a] -= A0 * S[a][l] * G[l * n + I];
-
-        // The derivative of A in the last term of the residual.
-        if (task == Task::tangent && w.norm_square() > 0.)
-          {
-            const Tensor<4, dim> dA =
-              material.tangent_derivative(F, g, outer_product(w, N));
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int kk = 0; kk < dim; ++kk)
-                {
-                  Tensor<2, dim> c;
-                  for (unsigned int b = 0; b < dim; ++b)
-                    for (unsigned int d = 0; d < dim; ++d)
-                      c[b][d] = A0 * dA[i][b][kk][d];
-                  c = F_n * c * transpose(F_n);
-                  for (unsigned int I = 0; I < n; ++I)
-                    for (unsigned int J = 0; J < n; ++J)
-                      for (unsigned int j = 0; j < dim; ++j)
-                        for (unsigned int l = 0; l < dim; ++l)
-                          scratch.pair[((i * dim + kk) * n + I) * n + J] -=
-                            G[j * n + I] * c[j][l] * G[l * n + J];
-                }
-          }
+        local.reinit(*boundary_points, boundary_groups, group);
+        local.gather(increment);
+        nitsche_terms.compute(task, boundary, boundary_branches, local);
+        local.distribute_residual(residual);
+        if (task != AssemblyTask::residual)
+          local.distribute_tangent(list++, *matrix);
       }
-  }
-
-
-
-  template <int dim>
-  void
-  DisplacementSystem<dim>::distribute(
-    const Task                              task,
-    const PointGroups<dim> &                groups,
-    const typename PointGroups<dim>::Group &group,
-    const unsigned int                      list,
-    LA::FieldVector &                       residual,
-    SystemMatrix *                          matrix) const
-  {
-    const unsigned int  n = groups.n_functions_per_cell();
-    const unsigned int  m = group.n_functions;
-    const unsigned int *f = groups.functions(group);
-    const double *      E = groups.extension(group);
-
-    for (unsigned int j = 0; j < m; ++j)
-      {
-        Tensor<1, dim> sum;
-        if (E == nullptr)
-          sum = scratch.residual[j];
-        else
-          for (unsigned int i = 0; i < n; ++i)
-            sum += E[i * m + j] * scratch.residual[i];
-        for (unsigned int a = 0; a < dim; ++a)
-          residual.local_element(dim * f[j] + a) += sum[a];
-      }
-
-    if (task == Task::residual)
-      return;
-
-    // E^T K E for each pair of components, interleaved on the way out.
-    for (unsigned int a = 0; a < dim; ++a)
-      for (unsigned int b = 0; b < dim; ++b)
-        {
-          const double *K = scratch.pair.data() + (a * dim + b) * n * n;
-          if (E == nullptr)
-            for (unsigned int I = 0; I < n; ++I)
-              for (unsigned int J = 0; J < n; ++J)
-                scratch.matrix[(dim * I + a) * dim * n + dim * J + b] =
-                  K[I * n + J];
-          else
-            {
-              std::fill_n(scratch.half.begin(), n * m, 0.);
-              for (unsigned int I = 0; I < n; ++I)
-                for (unsigned int J = 0; J < n; ++J)
-                  for (unsigned int j = 0; j < m; ++j)
-                    scratch.half[I * m + j] += K[I * n + J] * E[J * m + j];
-              for (unsigned int i = 0; i < m; ++i)
-                for (unsigned int j = 0; j < m; ++j)
-                  {
-                    double sum = 0.;
-                    for (unsigned int I = 0; I < n; ++I)
-                      sum += E[I * m + i] * scratch.half[I * m + j];
-                    scratch.matrix[(dim * i + a) * dim * m + dim * j + b] = sum;
-                  }
-            }
-        }
-    matrix->add(list, scratch.matrix.data());
   }
 
 
@@ -576,22 +253,20 @@ namespace EBSMPM
                                           const TensorFunction<1, dim> &force,
                                           LA::FieldVector &residual) const
   {
-    const BSplineKernel<dim> kernel(spline_space->degree());
-    const unsigned int       n = kernel.n_functions();
+    std::array<double, BSplineKernel<dim>::max_n_functions> B;
     for (const auto &group : material_groups.groups())
       {
-        std::fill_n(scratch.residual.begin(), n, Tensor<1, dim>());
-        for (unsigned int k = group.begin; k < group.end; ++k)
+        local.reinit(*points, material_groups, group);
+        for (unsigned int k = 0; k < local.n_points(); ++k)
           {
-            const unsigned int q = material_groups.point(k);
-            kernel.values(points->unit_point(q), scratch.B.data());
+            const unsigned int q = local.point(k);
+            local.values(k, B.data());
             const Tensor<1, dim> f =
               state.volume[q] * force.value(points->location(q));
-            for (unsigned int i = 0; i < n; ++i)
-              scratch.residual[i] -= scratch.B[i] * f;
+            for (unsigned int i = 0; i < local.n_functions(); ++i)
+              local.residual[i] -= B[i] * f;
           }
-        distribute(
-          Task::residual, material_groups, group, 0, residual, nullptr);
+        local.distribute_residual(residual);
       }
     residual.compress(VectorOperation::add);
   }
@@ -616,20 +291,14 @@ namespace EBSMPM
   {
     increment.update_ghost_values();
     psi_degraded.resize(points->n_points());
-    evaluate_field<dim>(*points,
-                        material_groups,
-                        spline_space->lattice(),
-                        spline_space->degree(),
-                        increment,
-                        [&](const unsigned int q,
-                            const Tensor<1, dim> &,
-                            const std::array<Tensor<1, dim>, dim> &gradient) {
-                          double psi_intact;
-                          material.energies(deformation<dim>(gradient,
-                                                             state.F[q]),
-                                            psi_degraded[q],
-                                            psi_intact);
-                        });
+    evaluate_material(state,
+                      increment,
+                      [&](const unsigned int q,
+                          const Tensor<1, dim> &,
+                          const Tensor<2, dim> &F) {
+                        double psi_intact;
+                        material.energies(F, psi_degraded[q], psi_intact);
+                      });
   }
 
 
@@ -642,43 +311,30 @@ namespace EBSMPM
   {
     increment.update_ghost_values();
     Energies result;
-    evaluate_field<dim>(*points,
-                        material_groups,
-                        spline_space->lattice(),
-                        spline_space->degree(),
-                        increment,
-                        [&](const unsigned int q,
-                            const Tensor<1, dim> &,
-                            const std::array<Tensor<1, dim>, dim> &gradient) {
-                          double psi_degraded, psi_intact;
-                          material.energies(deformation<dim>(gradient,
-                                                             state.F[q]),
-                                            psi_degraded,
-                                            psi_intact);
-                          result.elastic +=
-                            state.volume[q] *
-                            (degradation.value(state.damage[q]) * psi_degraded +
-                             psi_intact);
-                        });
-    evaluate_field<dim>(*boundary_points,
-                        boundary_groups,
-                        spline_space->lattice(),
-                        spline_space->degree(),
-                        increment,
-                        [&](const unsigned int                     q,
-                            const Tensor<1, dim> &                 value,
-                            const std::array<Tensor<1, dim>, dim> &gradient) {
-                          Tensor<2, dim> P;
-                          material.stress(deformation<dim>(gradient,
-                                                           boundary.F[q]),
-                                          degradation.value(boundary.damage[q]),
-                                          P);
-                          const auto w = mismatch(boundary, q, value);
-                          result.penalty +=
-                            boundary.area[q] *
-                            (0.5 * beta * w.norm_square() -
-                             w * (P * boundary.normal[q]));
-                        });
+    evaluate_material(state,
+                      increment,
+                      [&](const unsigned int q,
+                          const Tensor<1, dim> &,
+                          const Tensor<2, dim> &F) {
+                        const double g = degradation.value(state.damage[q]);
+                        double       psi_degraded, psi_intact;
+                        material.energies(F, psi_degraded, psi_intact);
+                        result.elastic +=
+                          state.volume[q] * (g * psi_degraded + psi_intact);
+                      });
+    evaluate_boundary(boundary,
+                      increment,
+                      [&](const unsigned int    q,
+                          const Tensor<1, dim> &value,
+                          const Tensor<2, dim> &F) {
+                        const double g = degradation.value(boundary.damage[q]);
+                        Tensor<2, dim> P;
+                        material.stress(F, g, P);
+                        const auto w = mismatch(boundary, q, value);
+                        result.penalty +=
+                          boundary.area[q] * (0.5 * beta * w.norm_square() -
+                                              w * (P * boundary.normal[q]));
+                      });
     const MPI_Comm &comm = spline_space->communicator();
     result.elastic       = Utilities::MPI::sum(result.elastic, comm);
     result.penalty       = Utilities::MPI::sum(result.penalty, comm);
@@ -690,37 +346,31 @@ namespace EBSMPM
   template <int dim>
   std::map<types::boundary_id, Tensor<1, dim>>
   DisplacementSystem<dim>::reactions(
-    const MaterialState<dim> &,
-    const BoundaryState<dim> &             boundary,
-    const LA::FieldVector &                increment,
+    const BoundaryState<dim>              &boundary,
+    const LA::FieldVector                 &increment,
     const std::vector<types::boundary_id> &ids) const
   {
     increment.update_ghost_values();
     std::map<types::boundary_id, Tensor<1, dim>> result;
     for (const auto id : ids)
       result[id] = Tensor<1, dim>();
-    evaluate_field<dim>(*boundary_points,
-                        boundary_groups,
-                        spline_space->lattice(),
-                        spline_space->degree(),
-                        increment,
-                        [&](const unsigned int                     q,
-                            const Tensor<1, dim> &                 value,
-                            const std::array<Tensor<1, dim>, dim> &gradient) {
-                          Tensor<2, dim> P;
-                          material.stress(deformation<dim>(gradient,
-                                                           boundary.F[q]),
-                                          degradation.value(boundary.damage[q]),
-                                          P,
-                                          branch_of(boundary_branches, q));
-                          const auto w    = mismatch(boundary, q, value);
-                          const auto flux = boundary.area[q] *
-                                            (P * boundary.normal[q] - beta * w);
-                          auto &sum = result.at(boundary.boundary_id[q]);
-                          for (unsigned int i = 0; i < dim; ++i)
-                            if (boundary.constrained[q][i])
-                              sum[i] += flux[i];
-                        });
+    evaluate_boundary(
+      boundary,
+      increment,
+      [&](const unsigned int    q,
+          const Tensor<1, dim> &value,
+          const Tensor<2, dim> &F) {
+        const double   g = degradation.value(boundary.damage[q]);
+        Tensor<2, dim> P;
+        material.stress(F, g, P, branch_of(boundary_branches, q));
+        const auto w = mismatch(boundary, q, value);
+        const auto flux =
+          boundary.area[q] * (P * boundary.normal[q] - beta * w);
+        auto &sum = result.at(boundary.boundary_id[q]);
+        for (unsigned int i = 0; i < dim; ++i)
+          if (boundary.constrained[q][i])
+            sum[i] += flux[i];
+      });
     for (auto &entry : result)
       entry.second =
         Utilities::MPI::sum(entry.second, spline_space->communicator());
@@ -738,18 +388,14 @@ namespace EBSMPM
     Update update;
     update.displacement_increment.resize(points->n_points());
     update.F.resize(points->n_points());
-    evaluate_field<dim>(*points,
-                        material_groups,
-                        spline_space->lattice(),
-                        spline_space->degree(),
-                        increment,
-                        [&](const unsigned int                     q,
-                            const Tensor<1, dim> &                 value,
-                            const std::array<Tensor<1, dim>, dim> &gradient) {
-                          update.displacement_increment[q] = value;
-                          update.F[q] =
-                            deformation<dim>(gradient, state.F[q]);
-                        });
+    evaluate_material(state,
+                      increment,
+                      [&](const unsigned int    q,
+                          const Tensor<1, dim> &value,
+                          const Tensor<2, dim> &F) {
+                        update.displacement_increment[q] = value;
+                        update.F[q]                      = F;
+                      });
     return update;
   }
 
@@ -764,18 +410,14 @@ namespace EBSMPM
     Update update;
     update.displacement_increment.resize(boundary_points->n_points());
     update.F.resize(boundary_points->n_points());
-    evaluate_field<dim>(*boundary_points,
-                        boundary_groups,
-                        spline_space->lattice(),
-                        spline_space->degree(),
-                        increment,
-                        [&](const unsigned int                     q,
-                            const Tensor<1, dim> &                 value,
-                            const std::array<Tensor<1, dim>, dim> &gradient) {
-                          update.displacement_increment[q] = value;
-                          update.F[q] =
-                            deformation<dim>(gradient, boundary.F[q]);
-                        });
+    evaluate_boundary(boundary,
+                      increment,
+                      [&](const unsigned int    q,
+                          const Tensor<1, dim> &value,
+                          const Tensor<2, dim> &F) {
+                        update.displacement_increment[q] = value;
+                        update.F[q]                      = F;
+                      });
     return update;
   }
 
@@ -789,19 +431,61 @@ namespace EBSMPM
   {
     increment.update_ghost_values();
     driving.resize(boundary_points->n_points());
-    evaluate_field<dim>(*boundary_points,
-                        boundary_groups,
+    evaluate_boundary(boundary,
+                      increment,
+                      [&](const unsigned int    q,
+                          const Tensor<1, dim> &value,
+                          const Tensor<2, dim> &F) {
+                        const Tensor<2, dim> P = material.degraded_stress(F);
+                        const auto           w = mismatch(boundary, q, value);
+                        driving[q]             = w * (P * boundary.normal[q]);
+                      });
+  }
+
+
+
+  template <int dim>
+  template <typename Visitor>
+  void
+  DisplacementSystem<dim>::evaluate_material(const MaterialState<dim> &state,
+                                             const LA::FieldVector &increment,
+                                             const Visitor         &visit) const
+  {
+    evaluate(*points, material_groups, state.F, increment, visit);
+  }
+
+
+
+  template <int dim>
+  template <typename Visitor>
+  void
+  DisplacementSystem<dim>::evaluate_boundary(const BoundaryState<dim> &boundary,
+                                             const LA::FieldVector &increment,
+                                             const Visitor         &visit) const
+  {
+    evaluate(*boundary_points, boundary_groups, boundary.F, increment, visit);
+  }
+
+
+
+  template <int dim>
+  template <typename Visitor>
+  void
+  DisplacementSystem<dim>::evaluate(const CellPoints<dim>             &at,
+                                    const PointGroups<dim>            &groups,
+                                    const std::vector<Tensor<2, dim>> &F_n,
+                                    const LA::FieldVector &increment,
+                                    const Visitor         &visit) const
+  {
+    evaluate_field<dim>(at,
+                        groups,
                         spline_space->lattice(),
                         spline_space->degree(),
                         increment,
                         [&](const unsigned int                     q,
-                            const Tensor<1, dim> &                 value,
+                            const Tensor<1, dim>                  &value,
                             const std::array<Tensor<1, dim>, dim> &gradient) {
-                          const Tensor<2, dim> P =
-                            material.degraded_stress(
-                              deformation<dim>(gradient, boundary.F[q]));
-                          driving[q] = mismatch(boundary, q, value) *
-                                       (P * boundary.normal[q]);
+                          visit(q, value, deformation<dim>(gradient, F_n[q]));
                         });
   }
 
@@ -839,20 +523,6 @@ namespace EBSMPM
   DisplacementSystem<dim>::penalty() const
   {
     return beta;
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
-  DisplacementSystem<dim>::inverse_extents(const CellPoints<dim> &points,
-                                           const unsigned int     cell) const
-  {
-    Tensor<1, dim> result =
-      spline_space->lattice().cell_extents(points.cells()[cell].level);
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = 1. / result[d];
-    return result;
   }
 
 

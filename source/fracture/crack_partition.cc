@@ -7,15 +7,15 @@
 //
 // -----------------------------------------------------------------------------
 
-#include <ebsmpm/fracture/crack_partition.h>
 #include <ebsmpm/splines/bspline_kernel.h>
 
+#include <ebsmpm/fracture/crack_directions.h>
+#include <ebsmpm/fracture/crack_partition.h>
+#include <ebsmpm/fracture/lattice_neighbours.h>
+
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace EBSMPM
 {
@@ -26,12 +26,6 @@ namespace EBSMPM
       /** Cells with less damage than this, and without labels, are left out. */
       constexpr double noteworthy_damage = 0.2;
 
-      /** Part of the local maximum above which the ridge begins. */
-      constexpr double ridge_fraction = 0.75;
-
-      /** Offsets smaller than this part of a cell are ties. */
-      constexpr double tie = 0.01;
-
       /**
        * Half the width of the strip in which a function looks for damage along
        * its side vector, in cells: as narrow as two points per cell and
@@ -41,78 +35,20 @@ namespace EBSMPM
 
       /** Reach of the closure, in cells. */
       constexpr int closure_reach = 3;
-
-
-
-      /** Of the two directions of an axis, the one that counts as positive. */
-      template <int dim>
-      Tensor<1, dim>
-      canonical(const Tensor<1, dim> &axis)
-      {
-        // The largest component, by a margin, so that an axis along a
-        // coordinate direction does not depend on roundoff in the others.
-        for (unsigned int d = 0; d < dim; ++d)
-          if (std::abs(axis[d]) > 0.5 / std::sqrt(1. * dim))
-            return axis[d] > 0 ? axis : -axis;
-        return axis;
-      }
-
-
-
-      template <int dim>
-      std::array<double, dim>
-      to_array(const Tensor<1, dim> &t)
-      {
-        std::array<double, dim> result;
-        for (unsigned int d = 0; d < dim; ++d)
-          result[d] = t[d];
-        return result;
-      }
-
-
-
-      template <std::size_t dim>
-      Tensor<1, static_cast<int>(dim)>
-      to_tensor(const std::array<double, dim> &a)
-      {
-        Tensor<1, static_cast<int>(dim)> result;
-        for (unsigned int d = 0; d < dim; ++d)
-          result[d] = a[d];
-        return result;
-      }
-
-
-
-      /** Call <tt>visit(key)</tt> for all lattice neighbours within a radius. */
-      template <int dim, typename Visitor>
-      void
-      for_each_neighbour(const FunctionKey<dim> &center,
-                         const int               radius,
-                         const Visitor &         visit)
-      {
-        const unsigned int width = 2 * radius + 1;
-        const unsigned int n     = Utilities::pow(width, dim);
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            FunctionKey<dim> key = center;
-            for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= width)
-              key.index[d] += static_cast<int>(rest % width) - radius;
-            visit(key);
-          }
-      }
     } // namespace CrackPartitionImplementation
   }   // namespace internal
 
   using namespace internal::CrackPartitionImplementation;
+  using namespace CrackDirections;
 
 
 
   template <int dim>
   CrackPartition<dim>::CrackPartition(const SplineSpace<dim> &space,
-                                      const AdditionalData &  data)
+                                      const AdditionalData   &data)
     : space(&space)
     , data(data)
-    , my_rank(Utilities::MPI::this_mpi_process(space.communicator()))
+    , ridge(space, data.closure_damage, data.ridge_radius)
   {}
 
 
@@ -135,10 +71,10 @@ namespace EBSMPM
                                                space->communicator()) > 0);
     if (anything)
       {
-        smooth_damage(points, volumes, damage);
+        ridge.smooth_damage(points, active_cells, volumes, damage);
         if (data.grow)
           {
-            find_ridge();
+            ridge.find();
             label_points(points, labels);
             label_points(boundary_points, boundary_labels);
           }
@@ -163,6 +99,7 @@ namespace EBSMPM
                                     const CrackLabels<dim> &   labels)
   {
     active_cells.clear();
+    ridge.clear();
     table.clear();
     for (unsigned int c = 0; c < points.cells().size(); ++c)
       {
@@ -181,173 +118,14 @@ namespace EBSMPM
 
   template <int dim>
   void
-  CrackPartition<dim>::smooth_damage(const CellPoints<dim> &    points,
-                                     const std::vector<double> &volumes,
-                                     const std::vector<double> &damage)
-  {
-    const BSplineKernel<dim>            kernel(space->degree());
-    const unsigned int                  n = kernel.n_functions();
-    const FunctionDirectory<dim, Sums>  directory(space->communicator());
-    std::array<double, BSplineKernel<dim>::max_n_functions> B;
-
-    // The mean damage of the functions, from values at the points. The third
-    // time, the means themselves are what we are after.
-    std::vector<double> values = damage;
-    for (unsigned int pass = 0; pass < 3; ++pass)
-      {
-        typename FunctionDirectory<dim, Sums>::Table sums;
-        for (const unsigned int c : active_cells)
-          {
-            const auto &cell = points.cells()[c];
-            std::array<double, BSplineKernel<dim>::max_n_functions> volume{},
-              value{};
-            for (unsigned int q = cell.begin; q < cell.end; ++q)
-              {
-                kernel.values(points.unit_point(q), B.data());
-                for (unsigned int i = 0; i < n; ++i)
-                  {
-                    volume[i] += B[i] * volumes[q];
-                    value[i] += B[i] * volumes[q] * values[q];
-                  }
-              }
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                Sums &sum =
-                  sums[space->cell_function(cell.index, cell.level, i)];
-                sum.volume += volume[i];
-                sum.value += value[i];
-                sum.owner = my_rank;
-              }
-          }
-        sums = directory.reduce(sums, [](Sums a, const Sums &b) {
-          a.volume += b.volume;
-          a.value += b.value;
-          a.owner = std::min(a.owner, b.owner);
-          return a;
-        });
-
-        if (pass < 2)
-          for (const unsigned int c : active_cells)
-            {
-              const auto &cell = points.cells()[c];
-              std::array<double, BSplineKernel<dim>::max_n_functions> means;
-              for (unsigned int i = 0; i < n; ++i)
-                {
-                  const Sums &sum =
-                    sums.at(space->cell_function(cell.index, cell.level, i));
-                  means[i] = sum.value / sum.volume;
-                }
-              for (unsigned int q = cell.begin; q < cell.end; ++q)
-                {
-                  kernel.values(points.unit_point(q), B.data());
-                  values[q] = 0.;
-                  for (unsigned int i = 0; i < n; ++i)
-                    values[q] += B[i] * means[i];
-                }
-            }
-        else
-          for (const auto &entry : sums)
-            {
-              FunctionData function;
-              function.damage = entry.second.value / entry.second.volume;
-              function.owner  = entry.second.owner;
-              table.emplace(entry.first, function);
-            }
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  CrackPartition<dim>::find_ridge()
-  {
-    std::vector<Key> centers;
-    for (const auto &entry : table)
-      centers.push_back(entry.first);
-    const DataTable around = surroundings(centers, data.ridge_radius);
-
-    for (auto &entry : table)
-      {
-        const double h =
-          space->lattice().cell_extents(entry.first.level)[0];
-        const Point<dim> x =
-          space->lattice().greville_point(entry.first, space->degree());
-        FunctionData &function = entry.second;
-
-        // The functions of the ball, with their positions and damage.
-        double maximum = 0.;
-        std::vector<std::pair<Tensor<1, dim>, double>> ball;
-        for_each_neighbour(
-          entry.first, data.ridge_radius, [&](const Key &key) {
-            const auto found = around.find(key);
-            if (found == around.end())
-              return;
-            const Tensor<1, dim> offset =
-              space->lattice().greville_point(key, space->degree()) - x;
-            if (offset.norm() > data.ridge_radius * h * (1. + 1e-6))
-              return;
-            ball.emplace_back(offset, found->second.damage);
-            maximum = std::max(maximum, found->second.damage);
-          });
-        function.ridge_damage = maximum;
-        if (maximum < data.closure_damage)
-          continue;
-
-        // Moments of what rises above the foot of the ridge.
-        double                  weight = 0.;
-        Tensor<1, dim>          first;
-        SymmetricTensor<2, dim> second;
-        for (const auto &member : ball)
-          {
-            // Squared, so that the crest counts more than the flanks, also
-            // where the ridge is a plateau.
-            const double rise =
-              std::max(0., member.second - ridge_fraction * maximum);
-            const double w = rise * rise;
-            weight += w;
-            first += w * member.first;
-            second += w * symmetrize(outer_product(member.first, member.first));
-          }
-        const Tensor<1, dim>          mean = first / weight;
-        const SymmetricTensor<2, dim> variance =
-          second / weight - symmetrize(outer_product(mean, mean));
-
-        // Eigenvalues come in descending order.
-        const auto   axes = eigenvectors(variance);
-        const double next = axes[dim - 2].first;
-        function.variance_ratio =
-          next > 0. ? std::max(axes[dim - 1].first, 0.) / next : 1.;
-        function.normal   = to_array(canonical(axes[dim - 1].second));
-        function.centroid = to_array(Tensor<1, dim>(x + mean));
-      }
-  }
-
-
-
-  template <int dim>
-  void
   CrackPartition<dim>::label_points(const CellPoints<dim> &points,
                                     CrackLabels<dim> &     labels) const
   {
     for (const auto &cell : points.cells())
       for (unsigned int q = cell.begin; q < cell.end; ++q)
-        {
-          if (labels.frozen[q])
-            continue;
-          labels.side[q] = Tensor<1, dim>();
-          const auto found =
-            table.find(nearest_function(cell, points.unit_point(q)));
-          if (found == table.end() ||
-              found->second.ridge_damage < data.closure_damage)
-            continue;
-
-          const double h = space->lattice().cell_extents(cell.level)[0];
-          const auto   n = to_tensor(found->second.normal);
-          const double distance =
-            (to_tensor(found->second.centroid) - points.location(q)) * n;
-          labels.side[q] = (distance > -tie * h) ? n : -n;
-        }
+        if (!labels.frozen[q])
+          labels.side[q] =
+            ridge.side_vector(cell, points.unit_point(q), points.location(q));
   }
 
 
@@ -403,10 +181,12 @@ namespace EBSMPM
       return a;
     });
 
-    for (auto &entry : table)
+    for (const auto &entry : ridge.table())
       {
-        const Sums &         sum  = sums.at(entry.first);
-        const Tensor<1, dim> mean = to_tensor(sum.vector);
+        const Sums          &sum      = sums.at(entry.first);
+        FunctionData        &function = table[entry.first];
+        const Tensor<1, dim> mean     = to_tensor(sum.vector);
+        function.owner                = entry.second.owner;
         if (sum.volume == 0.)
           continue;
         // As much material on either side: go to the fixed one.
@@ -416,7 +196,7 @@ namespace EBSMPM
           mean.norm() > tie * sum.volume ? mean / mean.norm() :
           axis.norm() > tie * sum.volume ? axis / axis.norm() :
                                            to_tensor(entry.second.normal);
-        entry.second.side         = to_array(side);
+        function.side = to_array(side);
       }
   }
 
@@ -433,7 +213,8 @@ namespace EBSMPM
     std::vector<Key> centers;
     for (const auto &entry : table)
       centers.push_back(entry.first);
-    const DataTable around = surroundings(centers, ring);
+    const DataTable around =
+      surroundings(table, centers, ring, space->communicator());
 
     // The damage met in the strip, or, where there is no material in the strip
     // because the function is outside of the body, in the whole support.
@@ -515,7 +296,8 @@ namespace EBSMPM
       if (!entry.second.separable &&
           entry.second.damage_ahead > data.closure_damage)
         candidates.push_back(entry.first);
-    const DataTable around = surroundings(candidates, closure_reach);
+    const DataTable around =
+      surroundings(table, candidates, closure_reach, space->communicator());
 
     // Which of the others exist at all.
     std::vector<Key> unknown;
@@ -611,63 +393,15 @@ namespace EBSMPM
 
             if (!labels.frozen[q] && labels.side[q].norm_square() > 0.)
               {
-                const auto found =
-                  table.find(nearest_function(cell, points.unit_point(q)));
+                const auto *shape = ridge.nearest(cell, points.unit_point(q));
                 labels.frozen[q] =
-                  found != table.end() &&
-                  found->second.variance_ratio < data.frozen_ratio;
+                  shape != nullptr && shape->variance_ratio < data.frozen_ratio;
               }
           }
       }
     const bool changed = (result != patterns);
     patterns.swap(result);
     return changed;
-  }
-
-
-
-  template <int dim>
-  typename CrackPartition<dim>::DataTable
-  CrackPartition<dim>::surroundings(const std::vector<Key> &centers,
-                                    const int               radius) const
-  {
-    // Publish what we own, and ask for what we do not see ourselves.
-    FunctionDirectory<dim, FunctionData> directory(space->communicator());
-    std::vector<typename FunctionDirectory<dim, FunctionData>::Entry> mine;
-    for (const auto &entry : table)
-      if (entry.second.owner == my_rank)
-        mine.push_back({entry.first, entry.second});
-    directory.publish(mine);
-
-    std::vector<Key> wanted;
-    for (const auto &center : centers)
-      for_each_neighbour(center, radius, [&](const Key &key) {
-        if (table.find(key) == table.end())
-          wanted.push_back(key);
-      });
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-
-    DataTable result = directory.query(wanted);
-    result.insert(table.begin(), table.end());
-    return result;
-  }
-
-
-
-  template <int dim>
-  typename CrackPartition<dim>::Key
-  CrackPartition<dim>::nearest_function(
-    const typename CellPoints<dim>::Cell &cell,
-    const Point<dim> &                    unit_point) const
-  {
-    // Greville points are cell centres for even degrees, vertices for odd ones.
-    const int p      = space->degree();
-    Key       result = space->cell_function(cell.index, cell.level, 0);
-    for (unsigned int d = 0; d < dim; ++d)
-      result.index[d] +=
-        (p % 2 == 0) ? p / 2 : p / 2 + (unit_point[d] < 0.5 ? 0 : 1);
-    return result;
   }
 
 

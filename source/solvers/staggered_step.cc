@@ -505,7 +505,7 @@ namespace EBSMPM
   std::map<types::boundary_id, Tensor<1, dim>>
   StaggeredStep<dim>::reactions() const
   {
-    return u_system.reactions(state, boundary, u_increment, boundary_ids);
+    return u_system.reactions(boundary, u_increment, boundary_ids);
   }
 
 

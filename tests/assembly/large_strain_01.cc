@@ -168,7 +168,7 @@ test(const bool with_damage)
               << std::endl;
 
       const auto ids = std::vector<types::boundary_id>({0, 1, 2, 3, 4, 5});
-      auto reactions = system.reactions(body->state, body->boundary, x, ids);
+      auto reactions = system.reactions(body->boundary, x, ids);
       const Tensor<1, dim> top = reactions[setup.moved];
       deallog << "  reactions";
       for (unsigned int d = 0; d < dim; ++d)

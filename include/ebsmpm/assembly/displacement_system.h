@@ -10,12 +10,17 @@
 #ifndef ebsmpm_assembly_displacement_system_h
 #define ebsmpm_assembly_displacement_system_h
 
-#include <ebsmpm/assembly/point_groups.h>
-#include <ebsmpm/assembly/point_state.h>
 #include <ebsmpm/lac/system_matrix.h>
 #include <ebsmpm/lac/types.h>
+
 #include <ebsmpm/materials/degradation.h>
 #include <ebsmpm/materials/material.h>
+
+#include <ebsmpm/assembly/elastic_terms.h>
+#include <ebsmpm/assembly/local_system.h>
+#include <ebsmpm/assembly/nitsche_terms.h>
+#include <ebsmpm/assembly/point_groups.h>
+#include <ebsmpm/assembly/point_state.h>
 
 #include <deal.II/base/partitioner.h>
 #include <deal.II/base/tensor_function.h>
@@ -46,10 +51,10 @@ namespace EBSMPM
    * its exact derivative, including that of $\mathbf A$ in the last term. The
    * tangent is symmetric.
    *
-   * Each group of points (see PointGroups) makes one dense matrix, as a single
-   * product $\mathbf G^T(\mathbf c\,\mathbf G)$ of the gradients of all
-   * functions at all points of the group; only the upper half of the pairs of
-   * components is computed. Constraints are part of the groups.
+   * Each group of points (see PointGroups) makes one dense matrix:
+   * ElasticTerms and NitscheTerms compute it, for material and boundary points,
+   * and LocalSystem adds it to the global one. Constraints are part of the
+   * groups.
    *
    * @code
    * DisplacementSystem<dim> system(material, degradation, beta);
@@ -197,9 +202,8 @@ namespace EBSMPM
      * points with, in the components that are prescribed. Collective.
      */
     std::map<types::boundary_id, Tensor<1, dim>>
-    reactions(const MaterialState<dim> &            state,
-              const BoundaryState<dim> &            boundary,
-              const LA::FieldVector &               increment,
+    reactions(const BoundaryState<dim>              &boundary,
+              const LA::FieldVector                 &increment,
               const std::vector<types::boundary_id> &ids) const;
 
     /**
@@ -248,60 +252,53 @@ namespace EBSMPM
     penalty() const;
 
   private:
-    /** What the loop over the groups is to compute. */
-    enum class Task
-    {
-      residual,
-      predictor,
-      tangent
-    };
-
-    /** Arrays of the loop over the groups, allocated once. */
-    struct Scratch
-    {
-      std::vector<Tensor<1, dim>> coefficients;
-      std::vector<double>         B;
-      std::vector<double>         G;
-      std::vector<double>         CG;
-      std::vector<double>         product;
-      std::vector<Tensor<1, dim>> residual;
-      std::vector<double>         matrix;
-      std::vector<double>         pair;
-      std::vector<double>         half;
-    };
-
+    /**
+     * Compute the residual, or the tangent as well; @p matrix may be a null
+     * pointer if it is not wanted.
+     */
     void
-    assemble(const Task                task,
+    assemble(const AssemblyTask        task,
              const MaterialState<dim> &state,
              const BoundaryState<dim> &boundary,
-             const LA::FieldVector &   increment,
-             LA::FieldVector &         residual,
-             SystemMatrix *            matrix) const;
+             const LA::FieldVector    &increment,
+             LA::FieldVector          &residual,
+             SystemMatrix             *matrix) const;
 
-    /** Add one group of material points to scratch.residual and .matrix. */
+    /** Add the terms of all groups of points of this process. */
     void
-    material_group(const Task                              task,
-                   const typename PointGroups<dim>::Group &group,
-                   const MaterialState<dim> &              state) const;
+    add_groups(const AssemblyTask        task,
+               const MaterialState<dim> &state,
+               const BoundaryState<dim> &boundary,
+               const LA::FieldVector    &increment,
+               LA::FieldVector          &residual,
+               SystemMatrix             *matrix) const;
 
-    /** Add one group of boundary points to scratch.residual and .matrix. */
+    /**
+     * Call <tt>visit(q, value, F)</tt> for all material points, with the
+     * increment of displacement and the deformation gradient at the end of the
+     * step. The ghost entries of @p increment must be up to date.
+     */
+    template <typename Visitor>
     void
-    boundary_group(const Task                              task,
-                   const typename PointGroups<dim>::Group &group,
-                   const BoundaryState<dim> &              boundary) const;
+    evaluate_material(const MaterialState<dim> &state,
+                      const LA::FieldVector    &increment,
+                      const Visitor            &visit) const;
 
-    /** Resolve the constraints of a group and add it to the global objects. */
+    /** The same for all boundary points. */
+    template <typename Visitor>
     void
-    distribute(const Task                              task,
-               const PointGroups<dim> &                groups,
-               const typename PointGroups<dim>::Group &group,
-               const unsigned int                      list,
-               LA::FieldVector &                       residual,
-               SystemMatrix *                          matrix) const;
+    evaluate_boundary(const BoundaryState<dim> &boundary,
+                      const LA::FieldVector    &increment,
+                      const Visitor            &visit) const;
 
-    /** One over the edge lengths of a cell. */
-    Tensor<1, dim>
-    inverse_extents(const CellPoints<dim> &points, const unsigned int cell) const;
+    /** The same for either kind, with $\mathbf F_n$ at the points. */
+    template <typename Visitor>
+    void
+    evaluate(const CellPoints<dim>             &at,
+             const PointGroups<dim>            &groups,
+             const std::vector<Tensor<2, dim>> &F_n,
+             const LA::FieldVector             &increment,
+             const Visitor                     &visit) const;
 
     const Material<dim> &material;
     const Degradation &  degradation;
@@ -321,8 +318,12 @@ namespace EBSMPM
     std::shared_ptr<const Utilities::MPI::Partitioner> functions;
     std::shared_ptr<const Utilities::MPI::Partitioner> unknowns;
 
-    SystemMatrix    tangent;
-    mutable Scratch scratch;
+    SystemMatrix tangent;
+
+    /** The terms; their arrays are allocated once per step. */
+    mutable LocalSystem<dim>  local;
+    mutable ElasticTerms<dim> elastic_terms;
+    const NitscheTerms<dim>   nitsche_terms;
   };
 } // namespace EBSMPM
 

@@ -10,11 +10,16 @@
 #ifndef ebsmpm_fracture_crack_partition_h
 #define ebsmpm_fracture_crack_partition_h
 
-#include <ebsmpm/particles/cell_points.h>
+#include <ebsmpm/splines/function_directory.h>
 #include <ebsmpm/splines/spline_space.h>
+
+#include <ebsmpm/particles/cell_points.h>
+
+#include <ebsmpm/fracture/damage_ridge.h>
 
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <vector>
 
 namespace EBSMPM
@@ -67,27 +72,25 @@ namespace EBSMPM
    *      m_p |        points below: side vector up
    * @endcode
    *
-   * Since the gradient vanishes on the ridge and is noise where $d\approx 1$,
-   * side vectors come from the shape of the ridge (method, section 6):
+   * The gradient vanishes on the ridge and is noise where $d\approx 1$.
+   * Therefore, side vectors come from the shape of the ridge, which DamageRidge
+   * finds (method, section 6):
    *
-   * 1. The damage of the points is smoothed by two passes from points to
-   *    functions and back, weighted by volume.
-   * 2. At each function, the ridge is where the smoothed damage is more than
-   *    75 % of its maximum in a ball of radius AdditionalData::ridge_radius
-   *    cells. Its centroid $\mathbf c$ and its axis of least variance
-   *    $\mathbf n$ describe the crack there.
-   * 3. A point takes both from the function next to it and gets the side vector
-   *    $\mathbf m_p=\operatorname{sign}((\mathbf c-\mathbf x_p)\cdot\mathbf n)
-   *    \,\mathbf n$. Ties go to a fixed side. The vector is settled once the
-   *    ridge is clear, i.e., the ratio of the two smallest principal variances
-   *    below AdditionalData::frozen_ratio, and the point reads a separable
-   *    function.
+   * 1. The damage of the points is smoothed.
+   * 2. At each function, centroid $\mathbf c$ and normal $\mathbf n$ of the
+   *    ridge in a ball of radius AdditionalData::ridge_radius cells are found.
+   * 3. A point gets the side vector $\mathbf
+   *    m_p=\operatorname{sign}((\mathbf c-\mathbf x_p)\cdot\mathbf n)
+   *    \,\mathbf n$. It is settled once the ridge is clear, i.e., the ratio of
+   *    the two smallest principal variances below AdditionalData::frozen_ratio,
+   *    and the point reads a separable function.
    * 4. The side vector $\mathbf m_I$ of a function is the mean of its points',
    *    weighted by volume: the side with more material owns it.
    * 5. A function is separable if a damage above $d_\text{cr}$ is met between
-   *    $-h$ and $+2h$ from it along $\mathbf m_I$ (for a function outside of the
-   *    body, anywhere in its support). This is decided per function, not per cell, so that the field of each side stays $C^{p-1}$
-   *    and the opening closes smoothly at the tip.
+   *    $-h$ and $+2h$ from it along $\mathbf m_I$ (for a function outside of
+   *    the body, anywhere in its support). This is decided per function, not
+   *    per cell, so that the field of each side stays $C^{p-1}$ and the opening
+   *    closes smoothly at the tip.
    * 6. Closure: a function on a ridge with $d>0.5$ between two separable ones,
    *    or between one and a free boundary, within three cells, is separable as
    *    well. Single functions left over would carry load for ever.
@@ -182,21 +185,10 @@ namespace EBSMPM
     /** What becomes known about a function, step by step. */
     struct FunctionData
     {
-      /** Smoothed damage. */
-      double damage = 0.;
-
       /** Damage met along the side vector. */
       double damage_ahead = 0.;
 
-      /** Maximum of the smoothed damage around. */
-      double ridge_damage = 0.;
-
-      /** Ratio of the two smallest principal variances of the ridge. */
-      double variance_ratio = 1.;
-
-      /** Normal and centroid of the ridge, and the function's side vector. */
-      std::array<double, dim> normal{};
-      std::array<double, dim> centroid{};
+      /** The function's side vector. */
       std::array<double, dim> side{};
 
       /** Whether both sides read the function differently. */
@@ -210,29 +202,23 @@ namespace EBSMPM
     struct Sums
     {
       double                  volume = 0.;
-      double                  value  = 0.;
       std::array<double, dim> vector{};
       std::array<double, dim> axis{};
-      unsigned int            owner = 0;
     };
 
     using DataTable = typename FunctionDirectory<dim, FunctionData>::Table;
 
-    /** Find the cells that take part, and the functions they see. */
+    /** Find the cells that take part. */
     void
     select_cells(const CellPoints<dim> &    points,
                  const std::vector<double> &damage,
                  const CrackLabels<dim> &   labels);
 
-    /** Steps 1 to 6; they fill #table. */
-    void
-    smooth_damage(const CellPoints<dim> &    points,
-                  const std::vector<double> &volumes,
-                  const std::vector<double> &damage);
-    void
-    find_ridge();
+    /** Step 3, for points that are not settled. */
     void
     label_points(const CellPoints<dim> &points, CrackLabels<dim> &labels) const;
+
+    /** Steps 4 to 6; they fill #table. */
     void
     find_sides(const CellPoints<dim> &    points,
                const std::vector<double> &volumes,
@@ -249,24 +235,14 @@ namespace EBSMPM
                   CrackLabels<dim> &     labels,
                   std::vector<Pattern> & patterns) const;
 
-    /**
-     * Return what the owners know about all functions around those that this
-     * process sees, within @p radius lattice steps. Collective.
-     */
-    DataTable
-    surroundings(const std::vector<Key> &centers, const int radius) const;
-
-    /** The function whose Greville point is next to a point of a cell. */
-    Key
-    nearest_function(const typename CellPoints<dim>::Cell &cell,
-                     const Point<dim> &                    unit_point) const;
-
     const SplineSpace<dim> *space;
     const AdditionalData    data;
-    const unsigned int      my_rank;
 
     /** Numbers of the cells that take part. */
     std::vector<unsigned int> active_cells;
+
+    /** The ridge of the damage in these cells. */
+    DamageRidge<dim> ridge;
 
     /** The functions that these cells see. */
     DataTable table;

@@ -1,0 +1,271 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_assembly_local_system_h
+#define ebsmpm_assembly_local_system_h
+
+#include <ebsmpm/lac/system_matrix.h>
+#include <ebsmpm/lac/types.h>
+
+#include <ebsmpm/splines/bspline_kernel.h>
+
+#include <ebsmpm/assembly/point_groups.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <vector>
+
+namespace EBSMPM
+{
+  /**
+   * What an assembly is to compute: the residual, or the tangent as well, with
+   * (tangent) or without (predictor) terms that are proportional to the unmet
+   * part of the Dirichlet data.
+   */
+  enum class AssemblyTask
+  {
+    residual,
+    predictor,
+    tangent
+  };
+
+
+
+  /**
+   * The share of one group of points in the equation for the displacement, in
+   * terms of the functions of the cell, and the way between these and the
+   * unknowns.
+   *
+   * The functions of the cell have the coefficients $\mathbf c_I=\sum_j E_{Ij}
+   * \mathbf x_j$, see PointGroups. This class gathers them, tells the increment
+   * at the points, and has room for the residual $\mathbf r_I$ and the tangent
+   * $\mathbf K_{IJ}$, which classes like ElasticTerms and NitscheTerms fill.
+   * What it adds to the global objects is $\mathbf r_j=\sum_I E_{Ij}\mathbf
+   * r_I$ and $\mathbf K_{ij}=\sum_{IJ} E_{Ii}\mathbf K_{IJ} E_{Jj}$.
+   *
+   * It goes from group to group as FEValues goes from cell to cell:
+   *
+   * @code
+   * LocalSystem<dim> local;
+   * local.initialize(space, largest_number_of_unknown_functions);
+   * for (const auto &group : groups.groups())
+   *   {
+   *     local.reinit(points, groups, group);
+   *     local.gather(increment);
+   *     terms.compute(AssemblyTask::tangent, state, {}, local);
+   *     local.distribute_residual(residual);
+   *     local.distribute_tangent(list++, matrix);
+   *   }
+   * @endcode
+   *
+   * Memory is allocated by initialize() only. There is no communication.
+   */
+  template <int dim>
+  class LocalSystem
+  {
+  public:
+    /**
+     * Allocate memory.
+     *
+     * @param space tells the degree and the size of cells; it must live as long
+     *   as it is used here
+     * @param max_n_functions the largest number of independent functions that a
+     *   group reads
+     */
+    void
+    initialize(const SplineSpace<dim> &space,
+               const unsigned int      max_n_functions);
+
+    /** Go to @p group, and set the residual to zero. */
+    void
+    reinit(const CellPoints<dim>                  &points,
+           const PointGroups<dim>                 &groups,
+           const typename PointGroups<dim>::Group &group);
+
+    /**
+     * Get the coefficients of @p increment, a vector with up-to-date ghost
+     * entries.
+     */
+    void
+    gather(const LA::FieldVector &increment);
+
+    /** Number of functions that the cell sees. */
+    unsigned int
+    n_functions() const;
+
+    /** Number of points of the group. */
+    unsigned int
+    n_points() const;
+
+    /** Number of the <tt>k</tt>th point of the group in CellPoints. */
+    unsigned int
+    point(const unsigned int k) const;
+
+    /** Compute the values of all functions at a point of the group. */
+    void
+    values(const unsigned int k, double *B) const;
+
+    /**
+     * Compute values and gradients of all functions at a point of the group:
+     * <tt>G[d*n_functions()+i]</tt> is $\partial B_i/\partial x_d$.
+     */
+    void
+    values_and_gradients(const unsigned int k, double *B, double *G) const;
+
+    /** Return the increment, where the functions have the values @p B. */
+    Tensor<1, dim>
+    value(const double *B) const;
+
+    /** Return the gradients of its components, from those of the functions. */
+    std::array<Tensor<1, dim>, dim>
+    gradient(const double *G) const;
+
+    /**
+     * The part of the tangent that couples component @p a of all functions with
+     * component @p b, row by row.
+     */
+    double *
+    tangent_block(const unsigned int a, const unsigned int b);
+
+    /** Set the tangent to zero. */
+    void
+    clear_tangent();
+
+    /** Resolve the constraints and add the residual to a vector. */
+    void
+    distribute_residual(LA::FieldVector &vector) const;
+
+    /**
+     * Resolve the constraints and add the tangent to a matrix.
+     *
+     * @param list number of the group's functions in the matrix
+     */
+    void
+    distribute_tangent(const unsigned int list, SystemMatrix &matrix);
+
+    /** The residual, a vector per function of the cell. */
+    std::vector<Tensor<1, dim>> residual;
+
+  private:
+    /** Compute @p half as a block of the tangent times $\mathbf E$. */
+    void
+    multiply_extension(const double *K, const double *E, const unsigned int m);
+
+    const SplineSpace<dim>                 *space  = nullptr;
+    const CellPoints<dim>                  *points = nullptr;
+    const PointGroups<dim>                 *groups = nullptr;
+    const typename PointGroups<dim>::Group *group  = nullptr;
+
+    BSplineKernel<dim> kernel{1};
+    unsigned int       n = 0;
+
+    /** One over the edge lengths of the cell. */
+    Tensor<1, dim> inverse_h;
+
+    std::vector<Tensor<1, dim>> coefficients;
+
+    /** The tangent, block by block. */
+    std::vector<double> tangent;
+
+    /** A block times $\mathbf E$, and the tangent of the unknowns. */
+    std::vector<double> half;
+    std::vector<double> matrix_of_unknowns;
+  };
+
+
+
+#ifndef DOXYGEN
+
+  template <int dim>
+  inline unsigned int
+  LocalSystem<dim>::n_functions() const
+  {
+    return n;
+  }
+
+
+
+  template <int dim>
+  inline unsigned int
+  LocalSystem<dim>::n_points() const
+  {
+    return group->end - group->begin;
+  }
+
+
+
+  template <int dim>
+  inline unsigned int
+  LocalSystem<dim>::point(const unsigned int k) const
+  {
+    return groups->point(group->begin + k);
+  }
+
+
+
+  template <int dim>
+  inline void
+  LocalSystem<dim>::values(const unsigned int k, double *B) const
+  {
+    kernel.values(points->unit_point(point(k)), B);
+  }
+
+
+
+  template <int dim>
+  inline void
+  LocalSystem<dim>::values_and_gradients(const unsigned int k,
+                                         double            *B,
+                                         double            *G) const
+  {
+    kernel.values_and_gradients(
+      points->unit_point(point(k)), inverse_h, B, G, n);
+  }
+
+
+
+  template <int dim>
+  inline Tensor<1, dim>
+  LocalSystem<dim>::value(const double *B) const
+  {
+    Tensor<1, dim> result;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int a = 0; a < dim; ++a)
+        result[a] += coefficients[i][a] * B[i];
+    return result;
+  }
+
+
+
+  template <int dim>
+  inline std::array<Tensor<1, dim>, dim>
+  LocalSystem<dim>::gradient(const double *G) const
+  {
+    std::array<Tensor<1, dim>, dim> result;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          result[a][d] += coefficients[i][a] * G[d * n + i];
+    return result;
+  }
+
+
+
+  template <int dim>
+  inline double *
+  LocalSystem<dim>::tangent_block(const unsigned int a, const unsigned int b)
+  {
+    return tangent.data() + (a * dim + b) * n * n;
+  }
+
+#endif
+} // namespace EBSMPM
+
+#endif

@@ -1,0 +1,151 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_assembly_nitsche_terms_h
+#define ebsmpm_assembly_nitsche_terms_h
+
+#include <ebsmpm/splines/bspline_kernel.h>
+
+#include <ebsmpm/materials/degradation.h>
+#include <ebsmpm/materials/material.h>
+
+#include <ebsmpm/assembly/local_system.h>
+#include <ebsmpm/assembly/point_state.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <vector>
+
+namespace EBSMPM
+{
+  /**
+   * Dirichlet conditions by Nitsche's method, for one group of boundary points:
+   * the second sum of the residual of DisplacementSystem.
+   *
+   * With $\mathbf w=\mathbf u_n+\Delta\mathbf u-\bar{\mathbf u}$, zero in
+   * components that are not prescribed, the energy of the boundary terms is
+   * $\sum_b A_0(\frac\beta2|\mathbf w|^2-\mathbf w\cdot\mathbf P\mathbf N)$.
+   * Let $B_I$ be the functions of the cell, $\mathbf G_I=\nabla_n B_I$, and
+   * @f[
+   *   T^i_{kl} = N_B A_{iBkD} F_{lD}, \qquad
+   *   t^i_{Jk} = T^i_{kl}\, G_{Jl}
+   * @f]
+   * the derivative of component $i$ of the traction $\mathbf P\mathbf N$ with
+   * respect to the gradient of the increment, and to its coefficients
+   * ($\mathbf F$ here is $\mathbf F_n$). With sums over the prescribed
+   * components $i$ only, and the derivative of $\mathbf A$ in the direction
+   * $\mathbf W=\mathbf w\otimes\mathbf N$, $\mathrm d\mathbf A$, residual and
+   * tangent are
+   * @f{align*}{
+   *   r_{Ij} &= \sum_b A_0 \Bigl[ \sum_i \delta_{ij}\, B_I\,
+   *     (\beta w_i - P_{iB} N_B) - \sum_i w_i\, T^i_{jl}\, G_{Il} \Bigr], \\
+   *   K_{Ij,Jk} &= \sum_b A_0 \Bigl[ \sum_i \bigl( \delta_{ij}\delta_{ik}\,
+   *     \beta\, B_I B_J - \delta_{ij}\, B_I\, t^i_{Jk} - \delta_{ik}\, t^i_{Ij}
+   *     \, B_J \bigr) - G_{Im} F_{mB}\, \mathrm dA_{jBkD}\, F_{lD} G_{Jl}
+   *     \Bigr]
+   * @f}
+   * (equation (6) of Sugai et al.; method, section 3). The last term is of the
+   * size of the mismatch, but without it Newton's method would not be
+   * quadratic.
+   *
+   * @code
+   * const NitscheTerms<dim> terms(material, degradation, beta);
+   * local.reinit(boundary_points, groups, group);
+   * local.gather(increment);
+   * terms.compute(AssemblyTask::tangent, boundary, {}, local);
+   * @endcode
+   *
+   * Boundary points are few. They are added one after the other, without the
+   * care for speed of ElasticTerms. Nothing is allocated.
+   */
+  template <int dim>
+  class NitscheTerms
+  {
+  public:
+    /**
+     * Constructor. The objects given must live as long as this one.
+     *
+     * @param material the elastic energy
+     * @param degradation the function $g(d)$
+     * @param penalty the factor $\beta$, stress per length
+     */
+    NitscheTerms(const Material<dim> &material,
+                 const Degradation   &degradation,
+                 const double         penalty);
+
+    /**
+     * Add to the residual of @p local, and overwrite its tangent if that is
+     * wanted.
+     *
+     * @param task what is wanted
+     * @param boundary the boundary points
+     * @param branches on which the points are held, or an empty array
+     * @param local the group and the increment at its points
+     */
+    void
+    compute(const AssemblyTask               task,
+            const BoundaryState<dim>        &boundary,
+            const std::vector<EnergyBranch> &branches,
+            LocalSystem<dim>                &local) const;
+
+  private:
+    /** What is known at a boundary point. */
+    struct PointData
+    {
+      /** Values of the functions; their gradients, direction by direction. */
+      std::array<double, BSplineKernel<dim>::max_n_functions>       B;
+      std::array<double, dim * BSplineKernel<dim>::max_n_functions> G;
+
+      /** The deformation gradient at the start of the step, and at its end. */
+      Tensor<2, dim> F_n;
+      Tensor<2, dim> F;
+
+      Tensor<1, dim> N;
+      Tensor<1, dim> w;
+
+      double A0;
+      double g;
+
+      typename Material<dim>::Response response;
+      Tensor<1, dim>                   traction;
+    };
+
+    /** Evaluate everything at the <tt>k</tt>th point of the group. */
+    void
+    evaluate(const BoundaryState<dim>        &boundary,
+             const std::vector<EnergyBranch> &branches,
+             const LocalSystem<dim>          &local,
+             const unsigned int               k,
+             PointData                       &point) const;
+
+    /** Return $T^i_{kl}$. */
+    static Tensor<2, dim>
+    traction_derivative(const PointData &point, const unsigned int i);
+
+    /** Add the terms with a $\delta_{ij}$ or a $\delta_{ik}$. */
+    void
+    add_component(const AssemblyTask    task,
+                  const unsigned int    i,
+                  const Tensor<2, dim> &T,
+                  const PointData      &point,
+                  LocalSystem<dim>     &local) const;
+
+    /** Add the term with the derivative of $\mathbf A$. */
+    void
+    add_derivative_of_tangent(const PointData  &point,
+                              LocalSystem<dim> &local) const;
+
+    const Material<dim> &material;
+    const Degradation   &degradation;
+    const double         beta;
+  };
+} // namespace EBSMPM
+
+#endif

@@ -1,0 +1,93 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_fracture_lattice_neighbours_h
+#define ebsmpm_fracture_lattice_neighbours_h
+
+#include <ebsmpm/splines/function_directory.h>
+#include <ebsmpm/splines/function_key.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <unordered_map>
+#include <vector>
+
+namespace EBSMPM
+{
+  /**
+   * Call <tt>visit(key)</tt> for all functions within @p radius lattice steps
+   * of @p center in each direction, whether or not they exist.
+   */
+  template <int dim, typename Visitor>
+  void
+  for_each_neighbour(const FunctionKey<dim> &center,
+                     const int               radius,
+                     const Visitor          &visit)
+  {
+    const unsigned int width = 2 * radius + 1;
+    const unsigned int n     = Utilities::pow(width, dim);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        FunctionKey<dim> key = center;
+        for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= width)
+          key.index[d] += static_cast<int>(rest % width) - radius;
+        visit(key);
+      }
+  }
+
+
+
+  /**
+   * Return what is known about all functions within @p radius lattice steps of
+   * some others: by this process, or by the owners of the functions.
+   * Collective.
+   *
+   * @param table what this process knows; <tt>Value::owner</tt> is the rank
+   *   whose entry others get
+   * @param centers the functions around which others are wanted
+   * @param radius the number of lattice steps
+   * @param communicator of the processes
+   */
+  template <int dim, typename Value>
+  typename FunctionDirectory<dim, Value>::Table
+  surroundings(
+    const std::unordered_map<FunctionKey<dim>, Value, FunctionKeyHash<dim>>
+                                        &table,
+    const std::vector<FunctionKey<dim>> &centers,
+    const int                            radius,
+    const MPI_Comm                      &communicator)
+  {
+    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
+
+    // Publish what we own, and ask for what we do not see ourselves.
+    FunctionDirectory<dim, Value> directory(communicator);
+    std::vector<typename FunctionDirectory<dim, Value>::Entry> mine;
+    for (const auto &entry : table)
+      if (entry.second.owner == my_rank)
+        mine.push_back({entry.first, entry.second});
+    directory.publish(mine);
+
+    std::vector<FunctionKey<dim>> wanted;
+    for (const auto &center : centers)
+      for_each_neighbour(center, radius, [&](const FunctionKey<dim> &key) {
+        if (table.find(key) == table.end())
+          wanted.push_back(key);
+      });
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+
+    auto result = directory.query(wanted);
+    result.insert(table.begin(), table.end());
+    return result;
+  }
+} // namespace EBSMPM
+
+#endif
