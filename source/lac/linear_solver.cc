@@ -363,6 +363,15 @@ namespace EBSMPM
 
 
 
+  bool
+  LinearSolver::is_found_indefinite(const LA::SparseMatrix &A)
+  {
+    refresh(A);
+    return is_indefinite;
+  }
+
+
+
   LinearSolver::Method
   LinearSolver::method_from_name(const std::string &name)
   {

@@ -300,6 +300,13 @@ namespace EBSMPM
                   "Number of times the line search halves a step.",
                   prm,
                   Patterns::Integer(0, 30));
+    add_parameter("Indefinite tangent",
+                  indefinite_tangent,
+                  "What to do with a solution whose tangent has negative "
+                  "pivots: an equilibrium that is not stable, or a penalty "
+                  "factor that is too small.",
+                  prm,
+                  Patterns::Selection("accept|cut back"));
   }
 
 

@@ -249,6 +249,7 @@ namespace EBSMPM
     data.newton                 = NewtonSolver::AdditionalData(
       newton.tolerance, newton.maximum_iterations, newton.maximum_bisections);
     data.intermediate_tolerance = newton.intermediate_tolerance;
+    data.refuse_indefinite      = (newton.indefinite_tangent == "cut back");
     data.displacement_solver.method =
       LinearSolver::method_from_name(linear.displacement);
     data.displacement_solver.refresh_iterations = linear.refresh_iterations;

@@ -324,7 +324,7 @@ namespace EBSMPM
     const double                               load,
     const typename StaggeredStep<dim>::Report &report)
   {
-    const auto   reactions = step->reactions();
+    const auto & reactions = step->reactions();
     const auto   energies  = step->energies();
     const double area      = step->crack_area();
     const auto & space     = step->displacement_space();

@@ -95,9 +95,7 @@ namespace EBSMPM
       }
 
     // The damage sees both sides of a crack.
-    Snapshot old_damage;
-    if (d_field.size() > 0)
-      take_snapshot(d_space, d_field, old_damage);
+    const FieldSnapshot<dim> old_damage(d_space, d_field);
     typename SplineSpace<dim>::SupportTable supports;
     add_supports<dim>(points, current_volume, {}, d_space, supports);
     add_supports<dim>(boundary_points, {}, {}, d_space, supports);
@@ -107,8 +105,7 @@ namespace EBSMPM
           points, boundary_points, d_space, d_constraints, {}, {}))
       d_solver.clear();
     d_system.initialize_vector(d_field);
-    if (old_damage.field.size() > 0)
-      transfer<1>(old_damage, d_space, d_field);
+    old_damage.template transfer<1>(d_space, d_field);
 
     space_is_current = false;
   }
@@ -121,9 +118,7 @@ namespace EBSMPM
   {
     TimerOutput::Scope scope(*timer, "points and spaces");
 
-    Snapshot old;
-    if (u_increment.size() > 0)
-      take_snapshot(u_space, u_increment, old);
+    const FieldSnapshot<dim> old_increment(u_space, u_increment);
 
     typename SplineSpace<dim>::SupportTable supports;
     add_supports<dim>(
@@ -146,8 +141,7 @@ namespace EBSMPM
       }
 
     u_system.initialize_vector(u_increment);
-    if (old.field.size() > 0)
-      transfer<dim>(old, u_space, u_increment);
+    old_increment.template transfer<dim>(u_space, u_increment);
     space_is_current = true;
   }
 
@@ -184,48 +178,6 @@ namespace EBSMPM
           }
       }
     u_solver.set_near_null_space(modes);
-  }
-
-
-
-  template <int dim>
-  void
-  StaggeredStep<dim>::take_snapshot(const SplineSpace<dim> &space,
-                                    const LA::FieldVector & field,
-                                    Snapshot &              snapshot)
-  {
-    snapshot.functions     = space.functions();
-    snapshot.n_independent = space.n_independent();
-    snapshot.field.reinit(field, true);
-    snapshot.field = field;
-    snapshot.field.update_ghost_values();
-  }
-
-
-
-  template <int dim>
-  template <int n_components>
-  void
-  StaggeredStep<dim>::transfer(const Snapshot &        snapshot,
-                               const SplineSpace<dim> &space,
-                               LA::FieldVector &       field)
-  {
-    // Functions that were dependent or absent start from zero: this is only an
-    // initial guess.
-    field.zero_out_ghost_values();
-    const auto &owned = space.locally_owned_independent();
-    for (const auto &entry : space.functions())
-      {
-        if (!owned.is_element(entry.second.index))
-          continue;
-        const auto found = snapshot.functions.find(entry.first);
-        if (found == snapshot.functions.end() ||
-            found->second.index >= snapshot.n_independent)
-          continue;
-        for (unsigned int a = 0; a < n_components; ++a)
-          field(n_components * entry.second.index + a) =
-            snapshot.field(n_components * found->second.index + a);
-      }
   }
 
 
@@ -273,9 +225,9 @@ namespace EBSMPM
 
     u_increment.zero_out_ghost_values();
     u_increment = 0.;
-    if (guess_factor != 0. && last_increment.field.size() > 0)
+    if (guess_factor != 0.)
       {
-        transfer<dim>(last_increment, u_space, u_increment);
+        last_increment.template transfer<dim>(u_space, u_increment);
         u_increment *= guess_factor;
       }
 
@@ -349,7 +301,26 @@ namespace EBSMPM
                                  std::to_string(data.max_passes) +
                                  " passes: the damage still changes by " +
                                  std::to_string(report.damage_change) + "."));
+    if (data.refuse_indefinite && report.indefinite_at_end)
+      check_stability();
+    all_reactions = u_system.reactions(boundary, u_increment, boundary_ids);
     return report;
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::check_stability()
+  {
+    // What the solver has found may have been true of an earlier tangent.
+    LA::FieldVector residual = u_system.make_vector();
+    u_system.assemble_tangent(state, boundary, u_increment, residual);
+    AssertThrow(!u_solver.is_found_indefinite(u_system.matrix()),
+                ExcSolverFailure(
+                  "The equilibrium is not stable: its tangent has negative "
+                  "pivots. (If this is so from the first step on, the penalty "
+                  "factor of Nitsche's method is too small.)"));
   }
 
 
@@ -431,7 +402,8 @@ namespace EBSMPM
     report.linear_iterations += result.linear_iterations;
     report.refreshes += result.refreshes;
     report.bisections += result.bisections;
-    report.indefinite = report.indefinite || result.indefinite;
+    report.indefinite_at_end = result.indefinite_at_end;
+    report.indefinite        = report.indefinite || result.indefinite;
     report.smoothed   = report.smoothed || result.smoothed;
     report.residual   = result.residual / (scale > 0. ? scale : 1.);
     report.residuals  = result.residuals;
@@ -456,7 +428,7 @@ namespace EBSMPM
       return Tensor<1, dim>(moved / moved.norm());
     };
 
-    for (const auto &reaction : reactions())
+    for (const auto &reaction : all_reactions)
       largest_force = std::max(largest_force, reaction.second.norm());
 
     const auto update = u_system.update_points(state, u_increment);
@@ -493,7 +465,7 @@ namespace EBSMPM
                                boundary_update.displacement_increment[q]);
       }
 
-    take_snapshot(u_space, u_increment, last_increment);
+    last_increment.reinit(u_space, u_increment);
     material_points.sort();
     boundary_material_points.sort();
     begin();
@@ -502,10 +474,10 @@ namespace EBSMPM
 
 
   template <int dim>
-  std::map<types::boundary_id, Tensor<1, dim>>
+  const std::map<types::boundary_id, Tensor<1, dim>> &
   StaggeredStep<dim>::reactions() const
   {
-    return u_system.reactions(boundary, u_increment, boundary_ids);
+    return all_reactions;
   }
 
 
@@ -534,8 +506,11 @@ namespace EBSMPM
     const typename Triangulation<dim>::active_cell_iterator &cell,
     std::vector<double> &coefficients) const
   {
-    cell_coefficients<dim>(
-      cell, u_space, u_constraints, u_increment, coefficients);
+    u_increment.update_ghost_values();
+    coefficients = cell_coefficients<dim, dim>(cell,
+                                               u_space,
+                                               u_constraints,
+                                               u_increment);
   }
 
 
@@ -546,44 +521,9 @@ namespace EBSMPM
     const typename Triangulation<dim>::active_cell_iterator &cell,
     std::vector<double> &coefficients) const
   {
-    cell_coefficients<1>(cell, d_space, d_constraints, d_field, coefficients);
-  }
-
-
-
-  template <int dim>
-  template <int n_components>
-  void
-  StaggeredStep<dim>::cell_coefficients(
-    const typename Triangulation<dim>::active_cell_iterator &cell,
-    const SplineSpace<dim> &                                 space,
-    const AffineConstraints<double> &                        constraints,
-    const LA::FieldVector &                                  field,
-    std::vector<double> &                                    coefficients)
-  {
-    field.update_ghost_values();
-    coefficients.clear();
-    const auto         index = space.lattice().cell_index(cell);
-    const unsigned int n     = space.n_functions_per_cell();
-    std::vector<double> values(n_components * n, 0.);
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const auto *function =
-          space.find(space.cell_function(index, cell->level(), i));
-        // A function that only its twin is read of, or a cell without points.
-        if (function == nullptr)
-          return;
-        for (unsigned int a = 0; a < n_components; ++a)
-          if (function->index < space.n_independent())
-            values[n_components * i + a] =
-              field(n_components * function->index + a);
-          else
-            for (const auto &term :
-                 *constraints.get_constraint_entries(function->index))
-              values[n_components * i + a] +=
-                term.second * field(n_components * term.first + a);
-      }
-    coefficients.swap(values);
+    d_field.update_ghost_values();
+    coefficients =
+      cell_coefficients<dim, 1>(cell, d_space, d_constraints, d_field);
   }
 
 

@@ -194,6 +194,28 @@ main(int argc, char **argv)
     deallog << "again, after the points have moved: force "
             << close_to(force(step), P[1][1], 1e-3) << std::endl;
 
+    // From rest, without a guess, in one step that is not small at all.
+    {
+      Specimen         fresh;
+      StaggeredStep<2> large(*fresh.points,
+                             *fresh.boundary_points,
+                             *material,
+                             degradation,
+                             Gc,
+                             l,
+                             1e5,
+                             data);
+      for (const double u : {0.0375, 0.3, -0.1})
+        {
+          const auto report = large.solve(conditions, u);
+          material->stress(stretch(u), 1., P, EnergyBranch::by_state);
+          deallog << "from rest to u = " << u << ": force "
+                  << close_to(force(large), P[1][1], 1e-9) << ", iterations "
+                  << (report.newton_iterations <= 4 ? "few" : "MANY")
+                  << (report.indefinite ? ", INDEFINITE" : "") << std::endl;
+        }
+    }
+
     // A load that turns the body inside out.
     const auto before = body.everything();
     step.solve(conditions, 0.025);

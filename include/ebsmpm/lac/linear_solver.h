@@ -221,6 +221,13 @@ namespace EBSMPM
           const double            relative_tolerance);
 
     /**
+     * Compute a new preconditioner, and return whether negative eigenvalues
+     * were found. Certain only with MUMPS; the other methods say no. Collective.
+     */
+    bool
+    is_found_indefinite(const LA::SparseMatrix &A);
+
+    /**
      * Return a method by its name, one of method_names(). Any other name raises
      * ExcParameter.
      */

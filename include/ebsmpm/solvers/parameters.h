@@ -151,6 +151,7 @@ namespace EBSMPM
       double       intermediate_tolerance = 1e-5;
       unsigned int maximum_iterations     = 25;
       unsigned int maximum_bisections     = 8;
+      std::string  indefinite_tangent     = "cut back";
     } newton;
 
     /** Section "Linear solver". */

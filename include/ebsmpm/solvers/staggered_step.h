@@ -12,6 +12,7 @@
 
 #include <ebsmpm/assembly/damage_system.h>
 #include <ebsmpm/assembly/displacement_system.h>
+#include <ebsmpm/assembly/field_snapshot.h>
 #include <ebsmpm/fracture/crack_partition.h>
 #include <ebsmpm/lac/linear_solver.h>
 #include <ebsmpm/particles/boundary_points.h>
@@ -104,6 +105,12 @@ namespace EBSMPM
       /** Parameters of Newton's method. */
       NewtonSolver::AdditionalData newton;
 
+      /**
+       * Whether a solution whose tangent has negative eigenvalues, i.e., an
+       * equilibrium that is not stable, is a failure of the step.
+       */
+      bool refuse_indefinite = true;
+
       /** Tolerance of Newton's method while the passes have not converged. */
       double intermediate_tolerance = 1e-5;
 
@@ -122,6 +129,7 @@ namespace EBSMPM
       unsigned int bisections        = 0;
       unsigned int rebuilds          = 0;
       bool         indefinite        = false;
+      bool         indefinite_at_end = false;
       bool         smoothed          = false;
       double       damage_change     = 0.;
       double       residual          = 0.;
@@ -169,8 +177,8 @@ namespace EBSMPM
     void
     accept();
 
-    /** The reactions of all boundaries, by boundary id. Collective. */
-    std::map<types::boundary_id, Tensor<1, dim>>
+    /** The reactions of all boundaries to the last solution, by boundary id. */
+    const std::map<types::boundary_id, Tensor<1, dim>> &
     reactions() const;
 
     /** Elastic and boundary energies. Collective. */
@@ -215,14 +223,6 @@ namespace EBSMPM
                 std::vector<double> &coefficients) const;
 
   private:
-    /** A field and what is needed to find its coefficients by key. */
-    struct Snapshot
-    {
-      typename SplineSpace<dim>::FunctionTable functions;
-      types::global_dof_index                  n_independent = 0;
-      LA::FieldVector                          field;
-    };
-
     /** Number the points where they are, and collect their state. */
     void
     begin();
@@ -230,29 +230,6 @@ namespace EBSMPM
     /** Build the space of the displacement for the current partition. */
     void
     build_displacement_space();
-
-    /** Keep what is needed to transfer a field to another space. */
-    static void
-    take_snapshot(const SplineSpace<dim> &space,
-                  const LA::FieldVector & field,
-                  Snapshot &              snapshot);
-
-    /** Give a field on a new space the coefficients of an old one. */
-    template <int n_components>
-    static void
-    transfer(const Snapshot &        snapshot,
-             const SplineSpace<dim> &space,
-             LA::FieldVector &       field);
-
-    /** What cell_increment() and cell_damage() have in common. */
-    template <int n_components>
-    static void
-    cell_coefficients(
-      const typename Triangulation<dim>::active_cell_iterator &cell,
-      const SplineSpace<dim> &                                 space,
-      const AffineConstraints<double> &                        constraints,
-      const LA::FieldVector &                                  field,
-      std::vector<double> &                                    coefficients);
 
     /** Rigid motions, for algebraic multigrid. */
     void
@@ -265,6 +242,10 @@ namespace EBSMPM
     /** One solve for the displacement. */
     void
     solve_displacement(const double tolerance, Report &report);
+
+    /** Raise ExcSolverFailure if the tangent at the solution is indefinite. */
+    void
+    check_stability();
 
     MaterialPoints<dim> &     material_points;
     BoundaryPoints<dim> &     boundary_material_points;
@@ -297,12 +278,13 @@ namespace EBSMPM
 
     LA::FieldVector u_increment;
     LA::FieldVector d_field;
-    Snapshot        last_increment;
+    FieldSnapshot<dim> last_increment;
     bool            space_is_current = false;
     double          largest_force    = 0.;
     double          force_scale      = 0.;
 
-    std::vector<types::boundary_id> boundary_ids;
+    std::vector<types::boundary_id>              boundary_ids;
+    std::map<types::boundary_id, Tensor<1, dim>> all_reactions;
   };
 } // namespace EBSMPM
 

@@ -1,0 +1,97 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_assembly_field_snapshot_h
+#define ebsmpm_assembly_field_snapshot_h
+
+#include <ebsmpm/lac/types.h>
+#include <ebsmpm/splines/spline_space.h>
+
+#include <deal.II/base/types.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <vector>
+
+namespace EBSMPM
+{
+  /**
+   * A field together with the keys of its functions, so that it can be given to
+   * a space in which these have other numbers.
+   *
+   * Nothing that matters is on the grid; but the last increment of displacement
+   * is a good guess for the next, and the damage of the last pass one for the
+   * next pass.
+   *
+   * @code
+   * FieldSnapshot<dim> old(space, field);
+   * space.reinit(...);
+   * old.transfer<n_components>(space, field);
+   * @endcode
+   */
+  template <int dim>
+  class FieldSnapshot
+  {
+  public:
+    /** Constructor of an empty snapshot. */
+    FieldSnapshot() = default;
+
+    /** Constructor, calls reinit(). */
+    FieldSnapshot(const SplineSpace<dim> &space, const LA::FieldVector &field);
+
+    /**
+     * Not assignable: deal.II's vectors keep their own ghost entries when
+     * something is assigned to them.
+     */
+    FieldSnapshot &
+    operator=(const FieldSnapshot &) = delete;
+
+    /**
+     * Remember a field with its ghost entries, unless it is empty. Collective.
+     */
+    void
+    reinit(const SplineSpace<dim> &space, const LA::FieldVector &field);
+
+    /** Return whether there is nothing to transfer. */
+    bool
+    empty() const;
+
+    /**
+     * Give @p field, which is distributed for @p space and zero, the
+     * coefficients that the snapshot knows. Functions that were dependent or
+     * did not exist stay at zero.
+     */
+    template <int n_components>
+    void
+    transfer(const SplineSpace<dim> &space, LA::FieldVector &field) const;
+
+  private:
+    typename SplineSpace<dim>::FunctionTable functions;
+    types::global_dof_index                  n_independent = 0;
+    LA::FieldVector                          field;
+  };
+
+
+
+  /**
+   * Return the coefficients of a field that a cell sees, in part 0, with
+   * constraints resolved: the components of a function one after the other, as
+   * GridWriter wants them. Empty for a cell without points. The ghost entries
+   * of @p field must be up to date.
+   */
+  template <int dim, int n_components>
+  std::vector<double>
+  cell_coefficients(
+    const typename Triangulation<dim>::active_cell_iterator &cell,
+    const SplineSpace<dim> &                                 space,
+    const AffineConstraints<double> &                        constraints,
+    const LA::FieldVector &                                  field);
+} // namespace EBSMPM
+
+#endif

@@ -1,0 +1,142 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/assembly/field_snapshot.h>
+
+namespace EBSMPM
+{
+  template <int dim>
+  FieldSnapshot<dim>::FieldSnapshot(const SplineSpace<dim> &space,
+                                    const LA::FieldVector & original)
+  {
+    reinit(space, original);
+  }
+
+
+
+  template <int dim>
+  void
+  FieldSnapshot<dim>::reinit(const SplineSpace<dim> &space,
+                             const LA::FieldVector & original)
+  {
+    if (original.size() == 0)
+      return;
+    functions     = space.functions();
+    n_independent = space.n_independent();
+    field.reinit(original, true);
+    field = original;
+    field.update_ghost_values();
+  }
+
+
+
+  template <int dim>
+  bool
+  FieldSnapshot<dim>::empty() const
+  {
+    return field.size() == 0;
+  }
+
+
+
+  template <int dim>
+  template <int n_components>
+  void
+  FieldSnapshot<dim>::transfer(const SplineSpace<dim> &space,
+                               LA::FieldVector &       target) const
+  {
+    if (empty())
+      return;
+    target.zero_out_ghost_values();
+    const auto &owned = space.locally_owned_independent();
+    for (const auto &entry : space.functions())
+      {
+        if (!owned.is_element(entry.second.index))
+          continue;
+        const auto found = functions.find(entry.first);
+        if (found == functions.end() || found->second.index >= n_independent)
+          continue;
+        for (unsigned int a = 0; a < n_components; ++a)
+          target(n_components * entry.second.index + a) =
+            field(n_components * found->second.index + a);
+      }
+  }
+
+
+
+  template <int dim, int n_components>
+  std::vector<double>
+  cell_coefficients(
+    const typename Triangulation<dim>::active_cell_iterator &cell,
+    const SplineSpace<dim> &                                 space,
+    const AffineConstraints<double> &                        constraints,
+    const LA::FieldVector &                                  field)
+  {
+    const auto          index = space.lattice().cell_index(cell);
+    const unsigned int  n     = space.n_functions_per_cell();
+    std::vector<double> values(n_components * n, 0.);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const auto *function =
+          space.find(space.cell_function(index, cell->level(), i));
+        // A function that only its twin is read of, or a cell without points.
+        if (function == nullptr)
+          return {};
+        for (unsigned int a = 0; a < n_components; ++a)
+          if (function->index < space.n_independent())
+            values[n_components * i + a] =
+              field(n_components * function->index + a);
+          else
+            for (const auto &term :
+                 *constraints.get_constraint_entries(function->index))
+              values[n_components * i + a] +=
+                term.second * field(n_components * term.first + a);
+      }
+    return values;
+  }
+
+
+
+  template class FieldSnapshot<2>;
+  template class FieldSnapshot<3>;
+
+  template void
+  FieldSnapshot<2>::transfer<1>(const SplineSpace<2> &, LA::FieldVector &) const;
+  template void
+  FieldSnapshot<2>::transfer<2>(const SplineSpace<2> &, LA::FieldVector &) const;
+  template void
+  FieldSnapshot<3>::transfer<1>(const SplineSpace<3> &, LA::FieldVector &) const;
+  template void
+  FieldSnapshot<3>::transfer<3>(const SplineSpace<3> &, LA::FieldVector &) const;
+
+  template std::vector<double>
+  cell_coefficients<2, 1>(
+    const typename Triangulation<2>::active_cell_iterator &,
+    const SplineSpace<2> &,
+    const AffineConstraints<double> &,
+    const LA::FieldVector &);
+  template std::vector<double>
+  cell_coefficients<2, 2>(
+    const typename Triangulation<2>::active_cell_iterator &,
+    const SplineSpace<2> &,
+    const AffineConstraints<double> &,
+    const LA::FieldVector &);
+  template std::vector<double>
+  cell_coefficients<3, 1>(
+    const typename Triangulation<3>::active_cell_iterator &,
+    const SplineSpace<3> &,
+    const AffineConstraints<double> &,
+    const LA::FieldVector &);
+  template std::vector<double>
+  cell_coefficients<3, 3>(
+    const typename Triangulation<3>::active_cell_iterator &,
+    const SplineSpace<3> &,
+    const AffineConstraints<double> &,
+    const LA::FieldVector &);
+} // namespace EBSMPM
