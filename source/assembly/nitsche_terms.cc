@@ -116,24 +116,31 @@ namespace EBSMPM
     if (task == AssemblyTask::residual)
       return;
 
-    std::array<Tensor<1, dim>, BSplineKernel<dim>::max_n_functions> t;
-    for (unsigned int J = 0; J < n; ++J)
-      for (unsigned int k = 0; k < dim; ++k)
-        for (unsigned int l = 0; l < dim; ++l)
-          t[J][k] += T[k][l] * point.G[l * n + J];
+    // t[k][J], a row per component.
+    std::array<std::array<double, BSplineKernel<dim>::max_n_functions>, dim> t;
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int J = 0; J < n; ++J)
+        {
+          t[k][J] = 0.;
+          for (unsigned int l = 0; l < dim; ++l)
+            t[k][J] += T[k][l] * point.G[l * n + J];
+        }
 
     for (unsigned int I = 0; I < n; ++I)
       {
         const double penalty = A0 * beta * B[I];
         const double weight  = A0 * B[I];
+        double      *row     = local.tangent_block(i, i) + I * n;
         for (unsigned int J = 0; J < n; ++J)
+          row[J] += penalty * B[J];
+        for (unsigned int k = 0; k < dim; ++k)
           {
-            local.tangent_block(i, i)[I * n + J] += penalty * B[J];
-            for (unsigned int k = 0; k < dim; ++k)
-              {
-                local.tangent_block(i, k)[I * n + J] -= weight * t[J][k];
-                local.tangent_block(k, i)[J * n + I] -= weight * t[J][k];
-              }
+            row            = local.tangent_block(i, k) + I * n;
+            double *column = local.tangent_block(k, i) + I;
+            for (unsigned int J = 0; J < n; ++J)
+              row[J] -= weight * t[k][J];
+            for (unsigned int J = 0; J < n; ++J)
+              column[J * n] -= weight * t[k][J];
           }
       }
   }
@@ -145,8 +152,10 @@ namespace EBSMPM
   NitscheTerms<dim>::add_derivative_of_tangent(const PointData  &point,
                                                LocalSystem<dim> &local) const
   {
-    const unsigned int   n = local.n_functions();
-    const auto          &G = point.G;
+    const unsigned int              n = local.n_functions();
+    std::array<const double *, dim> rows;
+    for (unsigned int l = 0; l < dim; ++l)
+      rows[l] = point.G.data() + l * n;
     const Tensor<4, dim> dA =
       material.tangent_derivative(point.F,
                                   point.g,
@@ -160,16 +169,21 @@ namespace EBSMPM
               c[b][d] = point.A0 * dA[j][b][k][d];
           c = point.F_n * c * transpose(point.F_n);
 
-          double *K = local.tangent_block(j, k);
-          for (unsigned int I = 0; I < n; ++I)
-            for (unsigned int J = 0; J < n; ++J)
-              {
-                double sum = K[I * n + J];
-                for (unsigned int m = 0; m < dim; ++m)
-                  for (unsigned int l = 0; l < dim; ++l)
-                    sum -= G[m * n + I] * c[m][l] * G[l * n + J];
-                K[I * n + J] = sum;
-              }
+          double *row = local.tangent_block(j, k);
+          for (unsigned int I = 0; I < n; ++I, row += n)
+            {
+              Tensor<2, dim> Gc = c;
+              for (unsigned int m = 0; m < dim; ++m)
+                Gc[m] *= rows[m][I];
+              for (unsigned int J = 0; J < n; ++J)
+                {
+                  double entry = row[J];
+                  for (unsigned int m = 0; m < dim; ++m)
+                    for (unsigned int l = 0; l < dim; ++l)
+                      entry -= Gc[m][l] * rows[l][J];
+                  row[J] = entry;
+                }
+            }
         }
   }
 
