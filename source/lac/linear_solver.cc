@@ -70,7 +70,7 @@ namespace EBSMPM
         const double quotient = src * dst;
         if (!std::isfinite(quotient))
           throw Observation::not_finite;
-        if (must_be_definite && quotient < 0.)
+        if (must_be_definite && quotient <= 0. && src.l2_norm() > 0.)
           throw if_indefinite;
       }
 
