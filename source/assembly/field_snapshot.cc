@@ -122,19 +122,7 @@ namespace EBSMPM
     const AffineConstraints<double> &,
     const LA::FieldVector &);
   template std::vector<double>
-  cell_coefficients<2, 2>(
-    const typename Triangulation<2>::active_cell_iterator &,
-    const SplineSpace<2> &,
-    const AffineConstraints<double> &,
-    const LA::FieldVector &);
-  template std::vector<double>
   cell_coefficients<3, 1>(
-    const typename Triangulation<3>::active_cell_iterator &,
-    const SplineSpace<3> &,
-    const AffineConstraints<double> &,
-    const LA::FieldVector &);
-  template std::vector<double>
-  cell_coefficients<3, 3>(
     const typename Triangulation<3>::active_cell_iterator &,
     const SplineSpace<3> &,
     const AffineConstraints<double> &,

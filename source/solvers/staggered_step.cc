@@ -106,6 +106,8 @@ namespace EBSMPM
       d_solver.clear();
     d_system.initialize_vector(d_field);
     old_damage.template transfer<1>(d_space, d_field);
+    // For cell_damage(), which has to do without communication.
+    d_field.update_ghost_values();
 
     space_is_current = false;
   }
@@ -502,26 +504,10 @@ namespace EBSMPM
 
   template <int dim>
   void
-  StaggeredStep<dim>::cell_increment(
-    const typename Triangulation<dim>::active_cell_iterator &cell,
-    std::vector<double> &coefficients) const
-  {
-    u_increment.update_ghost_values();
-    coefficients = cell_coefficients<dim, dim>(cell,
-                                               u_space,
-                                               u_constraints,
-                                               u_increment);
-  }
-
-
-
-  template <int dim>
-  void
   StaggeredStep<dim>::cell_damage(
     const typename Triangulation<dim>::active_cell_iterator &cell,
     std::vector<double> &coefficients) const
   {
-    d_field.update_ghost_values();
     coefficients =
       cell_coefficients<dim, 1>(cell, d_space, d_constraints, d_field);
   }

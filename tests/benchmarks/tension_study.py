@@ -24,6 +24,7 @@ import argparse
 import concurrent.futures
 import csv
 import os
+import shutil
 import subprocess
 import sys
 
@@ -111,9 +112,9 @@ CASES = {
 
 
 def run(program, folder, name):
-    """Run a case, unless its history is there."""
+    """Run a case, unless it has been run to its end."""
     directory = os.path.join(folder, name)
-    if os.path.exists(os.path.join(directory, "history.csv")):
+    if is_finished(directory):
         return
     settings = {"": "step-5.prm"}
     for part in CASES[name]:
@@ -126,9 +127,20 @@ def run(program, folder, name):
     for key, value in settings.items():
         command += ["--set", f"{key} = {value}"]
     environment = dict(os.environ, OPENBLAS_NUM_THREADS="1")
-    os.makedirs(directory, exist_ok=True)
+    if os.path.isdir(directory):
+        shutil.rmtree(directory)
+    os.makedirs(directory)
     with open(os.path.join(directory, "screen.txt"), "w") as screen:
         subprocess.run(command, stdout=screen, stderr=screen, env=environment)
+
+
+def is_finished(directory):
+    """Whether a run has written the last line of its log."""
+    try:
+        with open(os.path.join(directory, "log.txt")) as log:
+            return log.read().splitlines()[-1].startswith("finished")
+    except (OSError, IndexError):
+        return False
 
 
 def read(folder, name):

@@ -91,8 +91,15 @@ def check_separation(table, what):
 def run_ranks():
     """1, 2, 3, 4 processes give the same history, to full separation. With
     Balance off, cells are distributed without regard to the points, so that
-    the border between processes is elsewhere, across the path of the crack."""
-    settings = dict(SMALL, **{"Loading/Increments": "0.004: 1e-3, 0.012: 3e-4"})
+    the border between processes is elsewhere, across the path of the crack.
+    Fields are written as well: numbers of cells differ between processes."""
+    settings = dict(
+        SMALL,
+        **{
+            "Loading/Increments": "0.004: 1e-3, 0.012: 3e-4",
+            "Output/Interval": "10",
+        },
+    )
     reference = history(settings)
     check_separation(reference, "1 process")
     for ranks in (2, 3, 4):

@@ -208,16 +208,10 @@ namespace EBSMPM
     increment() const;
 
     /**
-     * The coefficients of the increment of displacement that a cell sees (in
-     * part 0), as GridWriter wants them: the components of a function one after
-     * the other; nothing for cells without points.
+     * The coefficients of the damage that a cell sees, as GridWriter wants them;
+     * nothing for cells without points. To be called between accept() and the
+     * next solve(). Not collective: processes have different numbers of cells.
      */
-    void
-    cell_increment(
-      const typename Triangulation<dim>::active_cell_iterator &cell,
-      std::vector<double> &                                    coefficients) const;
-
-    /** The same for the damage. */
     void
     cell_damage(const typename Triangulation<dim>::active_cell_iterator &cell,
                 std::vector<double> &coefficients) const;
