@@ -49,6 +49,7 @@ namespace EBSMPM
     boundary_points = &boundary_points_;
     spline_space    = &space;
     release_branches();
+    connected_pieces.clear();
 
     functions = make_partitioner(space, constraints, 1);
     unknowns  = make_partitioner(space, constraints, dim);
@@ -62,12 +63,41 @@ namespace EBSMPM
         lists.push_back({groups->functions(group), group.n_functions});
     const bool is_new = tangent.reinit(*functions, dim, lists);
 
+    const double h = space.lattice().cell_extents(
+      points->cells().empty() ? 0 : points->cells()[0].level)[0];
+    mass_density = 1e-6 * material.nitsche_stiffness() / (h * h);
+
     local.initialize(space,
                      std::max(material_groups.max_n_functions(),
                               boundary_groups.max_n_functions()));
     elastic_terms.initialize(space.n_functions_per_cell(),
                              material_groups.max_n_points());
     return is_new;
+  }
+
+
+
+  template <int dim>
+  void
+  DisplacementSystem<dim>::hold_free_pieces(const MaterialState<dim> &state,
+                                            const BoundaryState<dim> &boundary)
+  {
+    connected_pieces.reinit(*points,
+                            state.volume,
+                            material_groups,
+                            *boundary_points,
+                            boundary,
+                            boundary_groups,
+                            functions);
+  }
+
+
+
+  template <int dim>
+  const ConnectedPieces<dim> &
+  DisplacementSystem<dim>::pieces() const
+  {
+    return connected_pieces;
   }
 
 
@@ -225,11 +255,13 @@ namespace EBSMPM
                                       SystemMatrix             *matrix) const
   {
     unsigned int list = 0;
-    for (const auto &group : material_groups.groups())
+    for (unsigned int g = 0; g < material_groups.groups().size(); ++g)
       {
-        local.reinit(*points, material_groups, group);
+        local.reinit(*points, material_groups, material_groups.groups()[g]);
         local.gather(increment);
         elastic_terms.compute(task, state, branches, local);
+        if (connected_pieces.is_free(g))
+          add_mass(task, state);
         local.distribute_residual(residual);
         if (task != AssemblyTask::residual)
           local.distribute_tangent(list++, *matrix);
@@ -242,6 +274,30 @@ namespace EBSMPM
         local.distribute_residual(residual);
         if (task != AssemblyTask::residual)
           local.distribute_tangent(list++, *matrix);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  DisplacementSystem<dim>::add_mass(const AssemblyTask        task,
+                                    const MaterialState<dim> &state) const
+  {
+    const unsigned int n = local.n_functions();
+    std::array<double, BSplineKernel<dim>::max_n_functions> B;
+    for (unsigned int k = 0; k < local.n_points(); ++k)
+      {
+        local.values(k, B.data());
+        const Tensor<1, dim> increment = local.value(B.data());
+        const double mass = mass_density * state.volume[local.point(k)];
+        for (unsigned int i = 0; i < n; ++i)
+          local.residual[i] += mass * B[i] * increment;
+        if (task != AssemblyTask::residual)
+          for (unsigned int a = 0; a < dim; ++a)
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int j = 0; j < n; ++j)
+                local.tangent_block(a, a)[i * n + j] += mass * B[i] * B[j];
       }
   }
 

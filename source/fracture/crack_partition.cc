@@ -33,6 +33,13 @@ namespace EBSMPM
        */
       constexpr double strip = 0.26;
 
+      /**
+       * The part of the side vectors around a function that must have a common
+       * direction. Around the junction of three cracks at angles of 120 degrees
+       * it is a half, around a kink by 50 degrees 0.82.
+       */
+      constexpr double least_coherence = 0.8;
+
       /** Reach of the closure, in cells. */
       constexpr int closure_reach = 3;
     } // namespace CrackPartitionImplementation
@@ -46,7 +53,7 @@ namespace EBSMPM
   template <int dim>
   CrackPartition<dim>::CrackPartition(const SplineSpace<dim> &space,
                                       const AdditionalData   &data)
-    : space(&space)
+    : spline_space(&space)
     , data(data)
     , ridge(space, data.closure_damage, data.ridge_radius)
   {}
@@ -68,7 +75,7 @@ namespace EBSMPM
 
     select_cells(points, damage, labels);
     const bool anything = (Utilities::MPI::max(active_cells.empty() ? 0U : 1U,
-                                               space->communicator()) > 0);
+                                               spline_space->communicator()) > 0);
     if (anything)
       {
         ridge.smooth_damage(points, active_cells, volumes, damage);
@@ -87,7 +94,7 @@ namespace EBSMPM
     const bool boundary_changed =
       make_patterns(boundary_points, boundary_labels, boundary_point_patterns);
     return Utilities::MPI::max(changed || boundary_changed ? 1U : 0U,
-                               space->communicator()) > 0;
+                               spline_space->communicator()) > 0;
   }
 
 
@@ -101,6 +108,7 @@ namespace EBSMPM
     active_cells.clear();
     ridge.clear();
     table.clear();
+    n_refused = 0;
     for (unsigned int c = 0; c < points.cells().size(); ++c)
       {
         const auto &cell       = points.cells()[c];
@@ -136,10 +144,20 @@ namespace EBSMPM
                                   const std::vector<double> &volumes,
                                   const CrackLabels<dim> &   labels)
   {
-    const BSplineKernel<dim>           kernel(space->degree());
+    const BSplineKernel<dim>           kernel(spline_space->degree());
     const unsigned int                 n = kernel.n_functions();
-    const FunctionDirectory<dim, Sums> directory(space->communicator());
+    const FunctionDirectory<dim, Sums> directory(spline_space->communicator());
     std::array<double, BSplineKernel<dim>::max_n_functions> B;
+
+    const auto add = [](Sums a, const Sums &b) {
+      a.volume += b.volume;
+      a.settled_volume += b.settled_volume;
+      for (unsigned int d = 0; d < dim; ++d)
+        a.vector[d] += b.vector[d];
+      for (unsigned int k = 0; k < dim * dim; ++k)
+        a.tensor[k] += b.tensor[k];
+      return a;
+    };
 
     typename FunctionDirectory<dim, Sums>::Table sums;
     for (const unsigned int c : active_cells)
@@ -149,37 +167,28 @@ namespace EBSMPM
         for (unsigned int q = cell.begin; q < cell.end; ++q)
           {
             kernel.values(points.unit_point(q), B.data());
+            const Tensor<1, dim> &side = labels.side[q];
             for (unsigned int i = 0; i < n; ++i)
               {
-                local[i].volume += B[i] * volumes[q] * labels.side[q].norm();
-                const Tensor<1, dim> axis = canonical(labels.side[q]);
+                const double w = B[i] * volumes[q] * side.norm();
+                local[i].volume += w;
+                local[i].settled_volume += labels.frozen[q] ? w : 0.;
                 for (unsigned int d = 0; d < dim; ++d)
                   {
-                    local[i].vector[d] += B[i] * volumes[q] * labels.side[q][d];
-                    local[i].axis[d] += B[i] * volumes[q] * axis[d];
+                    local[i].vector[d] += w * side[d];
+                    for (unsigned int e = 0; e < dim; ++e)
+                      local[i].tensor[dim * d + e] += w * side[d] * side[e];
                   }
               }
           }
         for (unsigned int i = 0; i < n; ++i)
           {
-            Sums &sum = sums[space->cell_function(cell.index, cell.level, i)];
-            sum.volume += local[i].volume;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                sum.vector[d] += local[i].vector[d];
-                sum.axis[d] += local[i].axis[d];
-              }
+            Sums &sum = sums[spline_space->cell_function(
+              cell.index, cell.level, i)];
+            sum       = add(sum, local[i]);
           }
       }
-    sums = directory.reduce(sums, [](Sums a, const Sums &b) {
-      a.volume += b.volume;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          a.vector[d] += b.vector[d];
-          a.axis[d] += b.axis[d];
-        }
-      return a;
-    });
+    sums = directory.reduce(sums, add);
 
     for (const auto &entry : ridge.table())
       {
@@ -189,13 +198,19 @@ namespace EBSMPM
         function.owner                = entry.second.owner;
         if (sum.volume == 0.)
           continue;
+        SymmetricTensor<2, dim> tensor;
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int e = d; e < dim; ++e)
+            tensor[d][e] = sum.tensor[dim * d + e] / sum.volume;
+        const auto axes = eigenvectors(tensor);
+        function.at_junction =
+          axes[0].first < least_coherence &&
+          sum.settled_volume < 0.5 * sum.volume;
+
         // As much material on either side: go to the fixed one.
-        // (Points next to a slit have sides before there is a ridge.)
-        const Tensor<1, dim> axis = to_tensor(sum.axis);
-        const Tensor<1, dim> side =
-          mean.norm() > tie * sum.volume ? mean / mean.norm() :
-          axis.norm() > tie * sum.volume ? axis / axis.norm() :
-                                           to_tensor(entry.second.normal);
+        const Tensor<1, dim> side = mean.norm() > tie * sum.volume ?
+                                      mean / mean.norm() :
+                                      canonical(axes[0].second);
         function.side = to_array(side);
       }
   }
@@ -214,7 +229,7 @@ namespace EBSMPM
     for (const auto &entry : table)
       centers.push_back(entry.first);
     const DataTable around =
-      surroundings(table, centers, ring, space->communicator());
+      surroundings(table, centers, ring, spline_space->communicator());
 
     // The damage met in the strip, or, where there is no material in the strip
     // because the function is outside of the body, in the whole support.
@@ -224,16 +239,16 @@ namespace EBSMPM
       double in_support = 0.;
     };
     typename FunctionDirectory<dim, Met>::Table ahead;
-    const int                                   p = space->degree();
+    const int                                   p = spline_space->degree();
     for (const unsigned int c : active_cells)
       {
         const auto &       cell  = points.cells()[c];
-        const double       h     = space->lattice().cell_extents(cell.level)[0];
+        const double       h     = spline_space->lattice().cell_extents(cell.level)[0];
         const unsigned int width = p + 1 + 2 * ring;
         const unsigned int n     = Utilities::pow(width, dim);
         for (unsigned int i = 0; i < n; ++i)
           {
-            Key key = space->cell_function(cell.index, cell.level, 0);
+            Key key = spline_space->cell_function(cell.index, cell.level, 0);
             for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= width)
               key.index[d] += static_cast<int>(rest % width) - ring;
             const auto found = around.find(key);
@@ -244,7 +259,7 @@ namespace EBSMPM
               continue;
 
             const Point<dim> x =
-              space->lattice().greville_point(key, space->degree());
+              spline_space->lattice().greville_point(key, spline_space->degree());
             Met met;
             for (unsigned int q = cell.begin; q < cell.end; ++q)
               {
@@ -269,20 +284,25 @@ namespace EBSMPM
     // something to say about them.
     for (const auto &entry : table)
       ahead.emplace(entry.first, Met());
-    const FunctionDirectory<dim, Met> directory(space->communicator());
+    const FunctionDirectory<dim, Met> directory(spline_space->communicator());
     ahead = directory.reduce(ahead, [](Met a, const Met &b) {
       a.in_strip   = std::max(a.in_strip, b.in_strip);
       a.in_support = std::max(a.in_support, b.in_support);
       return a;
     });
+    const unsigned int my_rank =
+      Utilities::MPI::this_mpi_process(spline_space->communicator());
     for (auto &entry : table)
       {
         const Met &met = ahead.at(entry.first);
         entry.second.damage_ahead =
           met.in_strip >= 0. ? met.in_strip : met.in_support;
-        entry.second.separable =
-          entry.second.damage_ahead > data.damage_threshold;
+        const bool broken = entry.second.damage_ahead > data.damage_threshold;
+        entry.second.separable = broken && !entry.second.at_junction;
+        if (broken && entry.second.at_junction && entry.second.owner == my_rank)
+          ++n_refused;
       }
+    n_refused = Utilities::MPI::sum(n_refused, spline_space->communicator());
   }
 
 
@@ -293,11 +313,11 @@ namespace EBSMPM
   {
     std::vector<Key> candidates;
     for (const auto &entry : table)
-      if (!entry.second.separable &&
+      if (!entry.second.separable && !entry.second.at_junction &&
           entry.second.damage_ahead > data.closure_damage)
         candidates.push_back(entry.first);
     const DataTable around =
-      surroundings(table, candidates, closure_reach, space->communicator());
+      surroundings(table, candidates, closure_reach, spline_space->communicator());
 
     // Which of the others exist at all.
     std::vector<Key> unknown;
@@ -308,7 +328,7 @@ namespace EBSMPM
       });
     std::sort(unknown.begin(), unknown.end());
     unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
-    const auto sound = space->query(unknown);
+    const auto sound = spline_space->query(unknown);
 
     std::vector<Key> closed;
     for (const auto &key : candidates)
@@ -316,15 +336,15 @@ namespace EBSMPM
         const Tensor<1, dim> m = to_tensor(table.at(key).side);
         if (m.norm_square() == 0.)
           continue;
-        const double     h = space->lattice().cell_extents(key.level)[0];
+        const double     h = spline_space->lattice().cell_extents(key.level)[0];
         const Point<dim> x =
-          space->lattice().greville_point(key, space->degree());
+          spline_space->lattice().greville_point(key, spline_space->degree());
 
         // What lies along the ridge: separable functions, and the outside.
         std::vector<Tensor<1, dim>> separable, outside;
         for_each_neighbour(key, closure_reach, [&](const Key &other) {
           const Tensor<1, dim> offset =
-            space->lattice().greville_point(other, space->degree()) - x;
+            spline_space->lattice().greville_point(other, spline_space->degree()) - x;
           const double         along  = offset * m;
           const Tensor<1, dim> across = offset - along * m;
           if (across.norm() < 0.5 * h ||
@@ -365,7 +385,7 @@ namespace EBSMPM
                                      std::vector<Pattern> & patterns) const
   {
     std::vector<Pattern> result(points.n_points(), 0);
-    const unsigned int   n = space->n_functions_per_cell();
+    const unsigned int   n = spline_space->n_functions_per_cell();
     for (const auto &cell : points.cells())
       {
         std::array<const FunctionData *, BSplineKernel<dim>::max_n_functions>
@@ -374,7 +394,7 @@ namespace EBSMPM
         for (unsigned int i = 0; i < n; ++i)
           {
             const auto found =
-              table.find(space->cell_function(cell.index, cell.level, i));
+              table.find(spline_space->cell_function(cell.index, cell.level, i));
             if (found != table.end() && found->second.separable)
               {
                 functions[i] = &found->second;
@@ -420,6 +440,36 @@ namespace EBSMPM
   CrackPartition<dim>::boundary_patterns() const
   {
     return boundary_point_patterns;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  CrackPartition<dim>::side_of(const Key &key) const
+  {
+    const auto found = table.find(key);
+    return found != table.end() && found->second.separable ?
+             to_tensor(found->second.side) :
+             Tensor<1, dim>();
+  }
+
+
+
+  template <int dim>
+  const SplineSpace<dim> &
+  CrackPartition<dim>::space() const
+  {
+    return *spline_space;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  CrackPartition<dim>::n_junctions() const
+  {
+    return n_refused;
   }
 
 

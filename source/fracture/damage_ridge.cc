@@ -184,6 +184,39 @@ namespace EBSMPM
         if (function.ridge_damage >= minimum_damage)
           find_axes(entry.first, members, function);
       }
+    look_from_crest();
+  }
+
+
+
+  template <int dim>
+  void
+  DamageRidge<dim>::look_from_crest()
+  {
+    std::vector<Key> centers;
+    for (const auto &entry : functions)
+      if (entry.second.ridge_damage >= minimum_damage)
+        centers.push_back(entry.first);
+    const Table around =
+      surroundings(functions, centers, radius, space->communicator());
+
+    for (const Key &key : centers)
+      {
+        FunctionData &function = functions.at(key);
+        const auto    crest    = around.find(space->lattice().nearest_function(
+          Point<dim>(to_tensor(function.centroid)),
+          key.level,
+          space->degree()));
+        if (crest == around.end() ||
+            crest->second.ridge_damage < minimum_damage)
+          {
+            function.variance_ratio = 1.;
+            continue;
+          }
+        function.variance_ratio = crest->second.variance_ratio;
+        function.normal         = crest->second.normal;
+        function.centroid       = crest->second.centroid;
+      }
   }
 
 

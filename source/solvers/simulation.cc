@@ -35,6 +35,11 @@ namespace EBSMPM
   {
     namespace SimulationImplementation
     {
+      /** Part of a cell that lips may overlap by without a warning. */
+      constexpr double noteworthy_overlap = 0.01;
+
+
+
       /** The constants that formulas of shapes may contain. */
       std::map<std::string, double>
       constants(const Parameters &parameters)
@@ -268,6 +273,9 @@ namespace EBSMPM
                              "deficient_functions",
                              "twin_functions",
                              "largest_extension_weight",
+                             "pieces",
+                             "free_pieces",
+                             "smallest_opening",
                              "wall_time"})
       columns.push_back(name);
 
@@ -285,7 +293,7 @@ namespace EBSMPM
       {
         log_file.open(directory + "/log.txt");
         std::ofstream echo(directory + "/parameters.prm");
-        ParameterAcceptor::prm.print_parameters(echo, ParameterHandler::Text);
+        ParameterAcceptor::prm.print_parameters(echo, ParameterHandler::PRM);
       }
   }
 
@@ -355,6 +363,9 @@ namespace EBSMPM
           1. * space.n_deficient(),
           1. * space.n_twins(),
           step->extension_report().max_lebesgue,
+          1. * report.n_pieces,
+          1. * report.n_free_pieces,
+          report.opening.smallest,
           wall_clock.wall_time()})
       values.push_back(value);
     history->write(n_step, load, last_force, values);
@@ -367,7 +378,15 @@ namespace EBSMPM
          << report.linear_iterations << "  new " << std::setw(2)
          << report.refreshes << "  twins " << std::setw(5) << space.n_twins()
          << (report.indefinite ? "  (indefinite tangent)" : "")
-         << (report.smoothed ? "  (branches held)" : "") << '\n';
+         << (report.smoothed ? "  (branches held)" : "");
+    if (report.n_pieces > 1)
+      text << "  (" << report.n_pieces << " pieces, " << report.n_free_pieces
+           << " free)";
+    if (report.n_junctions > 0)
+      text << "  (" << report.n_junctions << " functions at a junction)";
+    if (report.opening.smallest < -noteworthy_overlap * parameters.cell_size())
+      text << "  (lips overlap by " << -report.opening.smallest << ")";
+    text << '\n';
     pcout << text.str() << std::flush;
     if (log_file)
       log_file << text.str() << std::flush;

@@ -141,6 +141,7 @@ namespace EBSMPM
         u_solver.clear();
         set_near_null_space();
       }
+    u_system.hold_free_pieces(state, boundary);
 
     u_system.initialize_vector(u_increment);
     old_increment.template transfer<dim>(u_space, u_increment);
@@ -306,7 +307,30 @@ namespace EBSMPM
     if (data.refuse_indefinite && report.indefinite_at_end)
       check_stability();
     all_reactions = u_system.reactions(boundary, u_increment, boundary_ids);
+    report.n_pieces      = u_system.pieces().pieces().size();
+    report.n_free_pieces = u_system.pieces().n_free();
+    report.n_junctions   = partition.n_junctions();
+    if (u_space.n_twins() > 0)
+      report.opening = opening();
     return report;
+  }
+
+
+
+  template <int dim>
+  CrackOpening
+  StaggeredStep<dim>::opening() const
+  {
+    const auto update = u_system.update_points(state, u_increment);
+    std::vector<Tensor<1, dim>> displacements(points.n_points());
+    for (unsigned int q = 0; q < points.n_points(); ++q)
+      displacements[q] = MaterialPoint<dim>(points.properties(q)).displacement();
+    return crack_opening(points,
+                         partition,
+                         state.volume,
+                         displacements,
+                         update.displacement_increment,
+                         update.F);
   }
 
 

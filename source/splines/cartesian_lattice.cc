@@ -104,6 +104,25 @@ namespace EBSMPM
 
 
   template <int dim>
+  FunctionKey<dim>
+  CartesianLattice<dim>::nearest_function(const Point<dim> & x,
+                                          const unsigned int level,
+                                          const unsigned int degree) const
+  {
+    constexpr double     margin = 1e-6;
+    const Tensor<1, dim> h      = cell_extents(level);
+    FunctionKey<dim>     result;
+    result.level = level;
+    for (unsigned int d = 0; d < dim; ++d)
+      result.index[d] = static_cast<std::int32_t>(
+        std::floor((x[d] - lower_corner[d]) / h[d] - 0.5 * (1. - degree) + 0.5 +
+                   margin));
+    return result;
+  }
+
+
+
+  template <int dim>
   const Point<dim> &
   CartesianLattice<dim>::origin() const
   {

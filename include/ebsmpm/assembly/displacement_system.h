@@ -16,6 +16,7 @@
 #include <ebsmpm/materials/degradation.h>
 #include <ebsmpm/materials/material.h>
 
+#include <ebsmpm/assembly/connected_pieces.h>
 #include <ebsmpm/assembly/elastic_terms.h>
 #include <ebsmpm/assembly/local_system.h>
 #include <ebsmpm/assembly/nitsche_terms.h>
@@ -114,6 +115,22 @@ namespace EBSMPM
            const AffineConstraints<double> &constraints,
            const std::vector<Pattern> &     patterns,
            const std::vector<Pattern> &     boundary_patterns);
+
+    /**
+     * Find the pieces that the body has been cut into, and let those that are
+     * free to move as rigid bodies have a small mass: the residual gets the
+     * term $\sum_p V_0\,\rho\,\Delta\mathbf u\cdot\delta\mathbf u$ there, with
+     * $\rho=10^{-6}\,(K+\frac43G)/h^2$. It is what makes the static problem
+     * solvable; as no load acts on such a piece, it stays where it is, with the
+     * stress it has. reinit() forgets the pieces. Collective.
+     */
+    void
+    hold_free_pieces(const MaterialState<dim> &state,
+                     const BoundaryState<dim> &boundary);
+
+    /** What hold_free_pieces() has found. */
+    const ConnectedPieces<dim> &
+    pieces() const;
 
     /** Return a zero vector of the right distribution. */
     LA::FieldVector
@@ -273,6 +290,10 @@ namespace EBSMPM
                LA::FieldVector          &residual,
                SystemMatrix             *matrix) const;
 
+    /** Add the mass of the points of a free piece to #local. */
+    void
+    add_mass(const AssemblyTask task, const MaterialState<dim> &state) const;
+
     /**
      * Call <tt>visit(q, value, F)</tt> for all material points, with the
      * increment of displacement and the deformation gradient at the end of the
@@ -314,6 +335,11 @@ namespace EBSMPM
 
     PointGroups<dim> material_groups;
     PointGroups<dim> boundary_groups;
+
+    ConnectedPieces<dim> connected_pieces;
+
+    /** The density $\rho$ of free pieces. */
+    double mass_density = 0.;
 
     std::shared_ptr<const Utilities::MPI::Partitioner> functions;
     std::shared_ptr<const Utilities::MPI::Partitioner> unknowns;

@@ -86,6 +86,11 @@ namespace EBSMPM
    *    and the point reads a separable function.
    * 4. The side vector $\mathbf m_I$ of a function is the mean of its points',
    *    weighted by volume: the side with more material owns it.
+   *    The direction $\mathbf T_I=\sum_p B_I V_p\,\mathbf m_p\otimes\mathbf m_p/
+   *    \sum_p B_I V_p$ of these must be clear as well: where its largest
+   *    eigenvalue is less than 0.8, several cracks meet, and two sides are not
+   *    enough. Such a function stays whole (n_junctions()), unless most of the
+   *    material around has settled sides: then there was a crack before.
    * 5. A function is separable if a damage above $d_\text{cr}$ is met between
    *    $-h$ and $+2h$ from it along $\mathbf m_I$ (for a function outside of
    *    the body, anywhere in its support). This is decided per function, not
@@ -177,6 +182,25 @@ namespace EBSMPM
     const std::vector<Pattern> &
     boundary_patterns() const;
 
+    /**
+     * Return the side vector of a function in part 0 if its two sides read it
+     * differently, else zero.
+     */
+    Tensor<1, dim>
+    side_of(const Key &key) const;
+
+    /** The space that the partition is about. */
+    const SplineSpace<dim> &
+    space() const;
+
+    /**
+     * Number of functions that should have become separable but have not,
+     * because the sides around them do not agree on a direction: junctions of
+     * cracks.
+     */
+    unsigned int
+    n_junctions() const;
+
     /** Tell the functions in @p supports their side vectors. */
     void
     add_sides(typename SplineSpace<dim>::SupportTable &supports) const;
@@ -194,6 +218,9 @@ namespace EBSMPM
       /** Whether both sides read the function differently. */
       bool separable = false;
 
+      /** Whether the sides of the points around have no common direction. */
+      bool at_junction = false;
+
       /** The lowest rank with points in the support. */
       unsigned int owner = 0;
     };
@@ -201,9 +228,10 @@ namespace EBSMPM
     /** A sum over the points of a function's support. */
     struct Sums
     {
-      double                  volume = 0.;
-      std::array<double, dim> vector{};
-      std::array<double, dim> axis{};
+      double                        volume         = 0.;
+      double                        settled_volume = 0.;
+      std::array<double, dim>       vector{};
+      std::array<double, dim * dim> tensor{};
     };
 
     using DataTable = typename FunctionDirectory<dim, FunctionData>::Table;
@@ -235,7 +263,7 @@ namespace EBSMPM
                   CrackLabels<dim> &     labels,
                   std::vector<Pattern> & patterns) const;
 
-    const SplineSpace<dim> *space;
+    const SplineSpace<dim> *spline_space;
     const AdditionalData    data;
 
     /** Numbers of the cells that take part. */
@@ -249,6 +277,8 @@ namespace EBSMPM
 
     std::vector<Pattern> point_patterns;
     std::vector<Pattern> boundary_point_patterns;
+
+    unsigned int n_refused = 0;
   };
 } // namespace EBSMPM
 

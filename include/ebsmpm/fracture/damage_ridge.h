@@ -46,7 +46,11 @@ namespace EBSMPM
    *      \mathbf V = \frac{\sum_I w_I\,\mathbf x_I\otimes\mathbf x_I}{\sum_I
    *      w_I} - \mathbf c\otimes\mathbf c.
    *    @f]
-   *    Its normal $\mathbf n$ is the axis of least variance.
+   *    Its normal $\mathbf n$ is the axis of least variance. This is as good as
+   *    the ball is well placed: ahead of the tip and far from the ridge, it
+   *    contains no more than an end or a segment of the ridge, and the axes are
+   *    those of that piece. Therefore, each function finally takes normal and
+   *    centroid from the function next to its centroid, on the crest.
    * 3. side_vector(): a point takes both from the function next to it, and
    *    looks towards the ridge,
    *    $\mathbf m_p=\operatorname{sign}((\mathbf c-\mathbf x_p)\cdot\mathbf n)
@@ -184,6 +188,10 @@ namespace EBSMPM
     find_axes(const Key    &center,
               const Ball   &ball,
               FunctionData &function) const;
+
+    /** Let each function take its axes from the one next to its centroid. */
+    void
+    look_from_crest();
 
     const SplineSpace<dim> *space;
     const double            minimum_damage;

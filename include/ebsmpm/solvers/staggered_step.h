@@ -13,6 +13,7 @@
 #include <ebsmpm/assembly/damage_system.h>
 #include <ebsmpm/assembly/displacement_system.h>
 #include <ebsmpm/assembly/field_snapshot.h>
+#include <ebsmpm/fracture/crack_opening.h>
 #include <ebsmpm/fracture/crack_partition.h>
 #include <ebsmpm/lac/linear_solver.h>
 #include <ebsmpm/particles/boundary_points.h>
@@ -136,6 +137,19 @@ namespace EBSMPM
 
       /** Norms of the residual in the last Newton solve. */
       std::vector<double> residuals;
+
+      /**
+       * Pieces that the body is in, and those of them that nothing prevents
+       * from moving, see ConnectedPieces.
+       */
+      unsigned int n_pieces      = 1;
+      unsigned int n_free_pieces = 0;
+
+      /** See CrackPartition::n_junctions(). */
+      unsigned int n_junctions = 0;
+
+      /** How far the lips of the cracks are apart at the end of the step. */
+      CrackOpening opening;
     };
 
     /**
@@ -236,6 +250,10 @@ namespace EBSMPM
     /** One solve for the displacement. */
     void
     solve_displacement(const double tolerance, Report &report);
+
+    /** Measure the opening of the cracks at the end of the step. */
+    CrackOpening
+    opening() const;
 
     /** Raise ExcSolverFailure if the tangent at the solution is indefinite. */
     void

@@ -69,6 +69,16 @@ namespace EBSMPM
     greville_point(const FunctionKey<dim> &key,
                    const unsigned int      degree) const;
 
+    /**
+     * Return the function of a level whose Greville point is next to @p x, in
+     * part 0. Of two that are equally close, it is always the upper one, in
+     * spite of roundoff in @p x.
+     */
+    FunctionKey<dim>
+    nearest_function(const Point<dim> & x,
+                     const unsigned int level,
+                     const unsigned int degree) const;
+
     /** Return the corner from which the indices are counted. */
     const Point<dim> &
     origin() const;
