@@ -89,6 +89,7 @@ namespace EBSMPM
         find_separable(points, labels);
         if (data.grow)
           close_gaps();
+        add_shared_functions(*spline_space, table);
       }
     const bool changed = make_patterns(points, labels, point_patterns);
     const bool boundary_changed =
@@ -190,12 +191,12 @@ namespace EBSMPM
       }
     sums = directory.reduce(sums, add);
 
-    for (const auto &entry : ridge.table())
+    for (const auto &entry : sums)
       {
-        const Sums          &sum      = sums.at(entry.first);
+        const Sums          &sum      = entry.second;
         FunctionData        &function = table[entry.first];
         const Tensor<1, dim> mean     = to_tensor(sum.vector);
-        function.owner                = entry.second.owner;
+        function.owner                = ridge.table().at(entry.first).owner;
         if (sum.volume == 0.)
           continue;
         SymmetricTensor<2, dim> tensor;

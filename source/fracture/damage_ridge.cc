@@ -185,6 +185,7 @@ namespace EBSMPM
           find_axes(entry.first, members, function);
       }
     look_from_crest();
+    add_shared_functions(*space, functions);
   }
 
 

@@ -235,14 +235,18 @@ namespace EBSMPM
       }
 
     // The force of a broken specimen goes to zero, so compare residuals with the
-    // largest one so far; before there is any, with the first residual.
-    force_scale = largest_force;
-    if (force_scale == 0.)
+    // largest one so far; before there is any, with the first residual. That is
+    // large, as no Dirichlet data are met yet, but what is lost by roundoff is
+    // a part of it, and a piece that nothing holds never has a force.
+    if (first_residual == 0.)
       {
         LA::FieldVector residual = u_system.make_vector();
         u_system.assemble_residual(state, boundary, u_increment, residual);
-        force_scale = residual.l2_norm();
+        first_residual = residual.l2_norm();
       }
+    force_scale = largest_force == 0. ?
+                    first_residual :
+                    std::max(largest_force, 1e-3 * first_residual);
 
     const bool iterate         = data.damage && data.max_passes > 1;
     double     relaxation      = 1.;

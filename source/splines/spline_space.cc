@@ -79,7 +79,8 @@ namespace EBSMPM
     directory.clear();
     table = directory.reduce(table, [](Function a, const Function &b) {
       a.fraction += b.fraction;
-      a.owner = std::min(a.owner, b.owner);
+      a.owner  = std::min(a.owner, b.owner);
+      a.shared = true;
       return a;
     });
 

@@ -12,6 +12,7 @@
 // far the crack reaches, whether gaps are closed, whether a broken body hangs
 // together nowhere, and whether labels and patterns stay once they are settled.
 
+#include <ebsmpm/fracture/crack_opening.h>
 #include <ebsmpm/fracture/crack_partition.h>
 #include <ebsmpm/materials/make_material.h>
 #include <ebsmpm/particles/generators.h>
@@ -159,6 +160,9 @@ test(const Crack<dim> &crack, const unsigned int n_cells)
   partition.add_sides(supports);
   split.reinit(supports, 0.1);
   const auto report = make_extension_constraints(split, constraints);
+  if (partition.n_junctions() > 0)
+    deallog << "  refused at a junction: " << partition.n_junctions()
+            << " functions" << std::endl;
   deallog << "  unknown functions " << space.n_independent()
           << " when whole, not more when split "
           << (split.n_independent() <= space.n_independent() ? "OK" : "FAILED")
@@ -209,6 +213,22 @@ test(const Crack<dim> &crack, const unsigned int n_cells)
           opening,
           std::abs(moved.displacement_increment[q][dim - 1] -
                    (above(q) ? 0.5 : 0.)));
+      // The halves have moved apart, or into each other.
+      for (const double factor : {1., -0.2})
+        {
+          std::vector<Tensor<1, dim>> increments;
+          for (const auto &increment : moved.displacement_increment)
+            increments.push_back(factor * increment);
+          const auto opening =
+            crack_opening(points,
+                          partition,
+                          state.volume,
+                          std::vector<Tensor<1, dim>>(points.n_points()),
+                          increments,
+                          state.F);
+          deallog << "  moved by " << 0.5 * factor << ", the lips are "
+                  << opening.smallest << " apart" << std::endl;
+        }
       deallog << "  no ligament: energy "
               << verdict(std::abs(energies.elastic), 1e-12) << ", motion "
               << verdict(Utilities::MPI::max(opening, MPI_COMM_WORLD), 1e-11)
@@ -260,6 +280,22 @@ main(int argc, char **argv)
            },
            true},
           21);
+  // Three cracks meet: the sides of the points follow the nearest one.
+  const auto junction = [](const Point<2> &x) {
+    double nearest = 1e10;
+    for (const double angle : {0.1, 0.1 + 2. / 3. * numbers::PI,
+                               0.1 + 4. / 3. * numbers::PI})
+      {
+        const Tensor<1, 2> offset = x - Point<2>(0.48, 0.51);
+        const double along =
+          offset[0] * std::cos(angle) + offset[1] * std::sin(angle);
+        const double across =
+          offset[1] * std::cos(angle) - offset[0] * std::sin(angle);
+        nearest = std::min(nearest, std::hypot(across, std::min(0., along)));
+      }
+    return nearest;
+  };
+  test<2>({"junction", junction, nowhere, false}, 21);
   for (const double tip : {10., 10.25, 10.5, 10.75})
     test<2>({"tip at " + std::to_string(tip).substr(0, 5) + " h",
              straight(0.5),

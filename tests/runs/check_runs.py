@@ -25,7 +25,13 @@ import tempfile
 
 PROGRAM, SOURCE, CASE = sys.argv[1:4]
 COARSE = os.path.join(SOURCE, "tutorials/step-5/coarse.prm")
-EXACT = ("independent_functions", "deficient_functions", "twin_functions")
+EXACT = (
+    "independent_functions",
+    "deficient_functions",
+    "twin_functions",
+    "pieces",
+    "free_pieces",
+)
 
 # A small version of coarse.prm that breaks completely, within seconds.
 SMALL = {
@@ -48,10 +54,12 @@ def call(directory, settings, ranks=1, arguments=(COARSE,)):
     return subprocess.run(command, capture_output=True, text=True)
 
 
-def history(settings, ranks=1):
+def history(settings, ranks=1, parameter_file=COARSE):
     """Run the program; return its history as a list of dictionaries."""
     with tempfile.TemporaryDirectory() as folder:
-        result = call(os.path.join(folder, "run"), settings, ranks)
+        result = call(
+            os.path.join(folder, "run"), settings, ranks, (parameter_file,)
+        )
         assert result.returncode == 0, result.stdout[-2000:] + result.stderr
         with open(os.path.join(folder, "run", "history.csv")) as file:
             return [
@@ -64,8 +72,9 @@ def peak(table):
     return max(abs(row["force"]) for row in table)
 
 
-def compare(a, b, what):
-    """The same functions, and the same forces to 1e-8 of the peak."""
+def compare(a, b, what, tolerance=1e-8):
+    """The same functions and pieces, and the same forces, relative to the
+    peak."""
     assert len(a) == len(b), f"{what}: {len(a)} and {len(b)} steps"
     forces = [k for k in a[0] if k.startswith("force")]
     for x, y in zip(a, b):
@@ -73,7 +82,7 @@ def compare(a, b, what):
             assert x[name] == y[name], f"{what}, step {x['step']:.0f}: {name}"
         for name in forces:
             difference = abs(x[name] - y[name]) / peak(a)
-            assert difference < 1e-8, (
+            assert difference < tolerance, (
                 f"{what}, step {x['step']:.0f}: {name} differs by {difference}"
             )
 
@@ -180,6 +189,70 @@ def run_rigid():
         inside = half & (numpy.abs(X[:, 1] - 0.5) > 2.0 / 15)
         error = (u_end - u)[inside] - numpy.array([0.0, expected])
         assert numpy.abs(error).max() < 0.01 * motion, error
+
+
+# A specimen that is broken from the start, of which only the lower half is held.
+BROKEN = dict(
+    SMALL,
+    **{
+        "Notch/Type": "damage",
+        "Notch/Region": "box(-1,0.5-l/2, 2,0.5+l/2)",
+        "Body/Boundaries": "bottom: y < 1e-9",
+        "Loading/Conditions": "bottom.x = 0; bottom.y = u",
+        "Loading/Driven boundary": "bottom.y",
+        "Loading/Stop below": "0",
+    },
+)
+
+
+def run_detached():
+    """The upper half is held by nothing: it stays where it is."""
+    settings = dict(
+        BROKEN,
+        **{
+            "Loading/Conditions": "bottom.x = 0; bottom.y = -u",
+            "Loading/Increments": "0.04: 0.02",
+        },
+    )
+    for ranks in (1, 2):
+        last = history(settings, ranks)[-1]
+        assert last["pieces"] == 2 and last["free_pieces"] == 1, last
+        assert abs(last["force"]) < 1e-10, last
+        assert abs(last["smallest_opening"] - 0.04) < 2e-3, last
+
+
+def run_closing():
+    """Lips that come together are reported: there is no contact."""
+    settings = dict(BROKEN, **{"Loading/Increments": "0.04: 0.02"})
+    with tempfile.TemporaryDirectory() as folder:
+        directory = os.path.join(folder, "run")
+        result = call(directory, settings)
+        assert result.returncode == 0, result.stdout[-2000:] + result.stderr
+        assert "(lips overlap by 0.0" in result.stdout, result.stdout
+        with open(os.path.join(directory, "history.csv")) as file:
+            last = list(csv.DictReader(file))[-1]
+    assert abs(float(last["smallest_opening"]) + 0.04) < 2e-3, last
+
+
+def run_panel():
+    """The L-shaped panel, coarse: a curved crack, the same on 1, 2 and 3
+    processes, and with the transition less load than without."""
+    panel = os.path.join(SOURCE, "tutorials/step-6/coarse.prm")
+    settings = {
+        "Background grid/Cell size": "20",
+        "Damage/Length scale": "20",
+        "Loading/Increments": "8: 2, 14: 0.4",
+        "Output/Interval": "0",
+    }
+    tables = [history(settings, ranks, panel) for ranks in (1, 2, 3)]
+    for table, ranks in zip(tables[1:], (2, 3)):
+        compare(tables[0], table, f"{ranks} processes", tolerance=1e-6)
+    diffusive = history(
+        dict(settings, **{"Crack partition/Enable": "false"}), 1, panel
+    )
+    assert tables[0][-1]["twin_functions"] > 10
+    assert tables[0][-1]["force"] < 0.9 * diffusive[-1]["force"]
+    assert abs(peak(tables[0]) - peak(diffusive)) < 0.01 * peak(diffusive)
 
 
 def run_stability():

@@ -12,6 +12,7 @@
 
 #include <ebsmpm/splines/function_directory.h>
 #include <ebsmpm/splines/function_key.h>
+#include <ebsmpm/splines/spline_space.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -87,6 +88,44 @@ namespace EBSMPM
     auto result = directory.query(wanted);
     result.insert(table.begin(), table.end());
     return result;
+  }
+
+
+
+  /**
+   * Add to @p table what other processes know about functions that this process
+   * sees. Only some cells take part in what is known, and those of a process
+   * may be on the other side of its border. Collective.
+   *
+   * @param space tells which functions are seen by several processes
+   * @param table what this process knows; <tt>Value::owner</tt> is the rank
+   *   whose entry others get
+   */
+  template <int dim, typename Value>
+  void
+  add_shared_functions(
+    const SplineSpace<dim> &space,
+    std::unordered_map<FunctionKey<dim>, Value, FunctionKeyHash<dim>> &table)
+  {
+    if (Utilities::MPI::n_mpi_processes(space.communicator()) == 1)
+      return;
+    const unsigned int my_rank =
+      Utilities::MPI::this_mpi_process(space.communicator());
+    FunctionDirectory<dim, Value> directory(space.communicator());
+    std::vector<typename FunctionDirectory<dim, Value>::Entry> mine;
+    std::vector<FunctionKey<dim>>                              wanted;
+    for (const auto &entry : space.functions())
+      if (entry.second.shared)
+        {
+          const auto found = table.find(entry.first);
+          if (found == table.end())
+            wanted.push_back(entry.first);
+          else if (found->second.owner == my_rank)
+            mine.push_back({entry.first, found->second});
+        }
+    directory.publish(mine);
+    const auto theirs = directory.query(wanted);
+    table.insert(theirs.begin(), theirs.end());
   }
 } // namespace EBSMPM
 

@@ -293,6 +293,7 @@ namespace EBSMPM
     FieldSnapshot<dim> last_increment;
     bool            space_is_current = false;
     double          largest_force    = 0.;
+    double          first_residual   = 0.;
     double          force_scale      = 0.;
 
     std::vector<types::boundary_id>              boundary_ids;

@@ -99,6 +99,9 @@ namespace EBSMPM
       FunctionClass           category = FunctionClass::standard;
       double                  fraction = 0.;
       std::array<double, dim> side{};
+
+      /** Whether more than one process sees it. */
+      bool shared = false;
     };
 
     using SupportTable =
