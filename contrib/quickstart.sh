@@ -31,8 +31,19 @@ quick_overrides=("Output/Interval = 30")
 paper_progress="0 0  0.0048 0.07  0.00504 0.10  0.00516 0.22  0.00528 0.40  0.0054 0.63  0.00552 0.96  0.0060 1"
 quick_progress="0 0  0.0048 0.07  0.00504 0.10  0.00516 0.22  0.00528 0.40  0.0054 0.63  0.00552 0.96  0.0060 1"
 
-# How many times the displacements are magnified in the picture of the crack.
+# How many times the displacements are magnified in the picture of the crack, and
+# the component of the side vectors that is drawn, which changes its sign across
+# the crack.
 warp=20
+side_component=1
+fields_arguments=()
+
+# The L-shaped panel, section 4.(2), with --panel; the part of it where the crack
+# is, in mm.
+panel_file=$source_dir/tutorials/step-6/step-6.prm
+panel_text="the resolution of the paper, h = 5 mm"
+panel_progress="0 0  8 0.08  9 0.28  10 0.45  12 0.72  15 1"
+panel_window=(--zoom 0 200 300 510)
 
 # The two variants: the crack stays a band of damaged material, or it becomes a
 # discontinuity.
@@ -46,15 +57,19 @@ declare -A variant_override=(
 
 # ---- Options -----------------------------------------------------------------
 
+benchmark=tension
 resolution=quick
 for argument in "$@"; do
   case $argument in
+    --panel)
+      benchmark=panel
+      ;;
     --paper)
       resolution=paper
       ;;
     -h | --help)
       cat << END
-usage: bash contrib/quickstart.sh [--paper]
+usage: bash contrib/quickstart.sh [--paper | --panel]
 
 Installs the Debian packages that are missing, builds ebsmpm in release mode in
 build/release, runs the single-edge-notched tension test with the crack as a
@@ -62,6 +77,9 @@ damaged band (PF-MPM) and with the transition to a discrete crack (PF-MPM-DFG),
 both at the same time, and plots the results, which are in
 build/results/tension-<resolution>. Without options this takes at most 20
 minutes on two cores; --paper uses the resolution of the paper and takes longer.
+
+With --panel, the L-shaped panel is bent instead, at the resolution of the paper,
+and there are pictures of the crack as it opens; this takes about as long.
 
 Calling it again uses what is installed and built already, and replaces the
 results.
@@ -75,7 +93,14 @@ END
 done
 
 overrides=()
-if [ $resolution = paper ]; then
+if [ $benchmark = panel ]; then
+  parameter_file=$panel_file
+  resolution=paper
+  resolution_text=$panel_text
+  progress_table=$panel_progress
+  warp=1
+  fields_arguments=("${panel_window[@]}")
+elif [ $resolution = paper ]; then
   resolution_text=$paper_text
   progress_table=$paper_progress
 else
@@ -85,7 +110,7 @@ else
     overrides+=(--set "$override")
   done
 fi
-results=$build_root/results/tension-$resolution
+results=$build_root/results/$benchmark-$resolution
 
 
 
@@ -117,7 +142,7 @@ if [ $ranks -gt 1 ]; then
   launcher=(mpiexec --bind-to none -n "$ranks")
 fi
 
-say "3/4 Tension test, ${variants[0]} and ${variants[1]}, with $resolution_text"
+say "3/4 Benchmark '$benchmark', ${variants[0]} and ${variants[1]}, with $resolution_text"
 rm -rf "$results"
 declare -A process
 stop_runs()
@@ -243,18 +268,47 @@ for variant in "${variants[@]}"; do
   last_points+=("$last")
   labels+=(--label "$variant")
 done
-"$python" "$source_dir/contrib/plot_fields.py" "$results/damage.png" \
-  "${last_points[@]}" "${labels[@]}" --field damage
-"$python" "$source_dir/contrib/plot_fields.py" "$results/opened-crack.png" \
-  "${last_points[@]}" "${labels[@]}" --field damage --warp "$warp" \
-  --title "Displacements magnified $warp times"
+plot_fields()
+{
+  "$python" "$source_dir/contrib/plot_fields.py" "$@" \
+    ${fields_arguments[@]+"${fields_arguments[@]}"}
+}
+plot_fields "$results/damage.png" "${last_points[@]}" "${labels[@]}" \
+  --field damage
+if [ "$warp" -gt 1 ]; then
+  title=(--title "Displacements magnified $warp times")
+else
+  title=()
+fi
+plot_fields "$results/opened-crack.png" "${last_points[@]}" "${labels[@]}" \
+  --field damage --warp "$warp" ${title[@]+"${title[@]}"}
+
+# The discrete crack as it opens, by damage and by side: four times, the last one
+# included.
+mapfile -t all_points < <(find "$results/${variants[1]}" -name 'points_*.pvtu' \
+  | sort)
+n=${#all_points[@]}
+opening=()
+for k in 1 2 3 4; do
+  opening+=("${all_points[$(((n * k + 3) / 4 - 1))]}")
+done
+for field in damage side; do
+  component=()
+  if [ $field = side ]; then
+    component=(--component "$side_component")
+  fi
+  plot_fields "$results/opening-by-$field.png" "${opening[@]}" \
+    --field $field ${component[@]+"${component[@]}"} --warp "$warp"
+done
 
 say "Done in $(minutes $SECONDS) minutes, with $resolution_text"
 cat << END
   $results/
     load-displacement.png          the curves of both variants
     damage.png                     the damage at the end
-    opened-crack.png               the same, the displacements magnified
+    opened-crack.png               the same, displacements magnified $warp times
+    opening-by-damage.png          the discrete crack as it opens
+    opening-by-side.png            the same, coloured by the sides of the points
     <variant>/history.csv          load, energies, crack length, step by step
     <variant>/points.pvd, *.pvd    for ParaView
     <variant>.log                  what the program printed

@@ -34,11 +34,14 @@ namespace EBSMPM
       constexpr double strip = 0.26;
 
       /**
-       * The part of the side vectors around a function that must have a common
-       * direction. Around the junction of three cracks at angles of 120 degrees
-       * it is a half, around a kink by 50 degrees 0.82.
+       * Where cracks meet, the ridge has no direction but arms: the ratio of its
+       * principal variances is larger than the first number, and the smaller
+       * one, over the square of the radius, larger than the second. (Straight
+       * arms of full length have 1/6 in all directions, and the end of a ridge,
+       * or a new one, has less than 1/32.)
        */
-      constexpr double least_coherence = 0.8;
+      constexpr double junction_ratio    = 0.5;
+      constexpr double junction_variance = 1. / 16.;
 
       /** Reach of the closure, in cells. */
       constexpr int closure_reach = 3;
@@ -154,9 +157,10 @@ namespace EBSMPM
       a.volume += b.volume;
       a.settled_volume += b.settled_volume;
       for (unsigned int d = 0; d < dim; ++d)
-        a.vector[d] += b.vector[d];
-      for (unsigned int k = 0; k < dim * dim; ++k)
-        a.tensor[k] += b.tensor[k];
+        {
+          a.vector[d] += b.vector[d];
+          a.axis[d] += b.axis[d];
+        }
       return a;
     };
 
@@ -169,6 +173,7 @@ namespace EBSMPM
           {
             kernel.values(points.unit_point(q), B.data());
             const Tensor<1, dim> &side = labels.side[q];
+            const Tensor<1, dim>  axis = canonical(side);
             for (unsigned int i = 0; i < n; ++i)
               {
                 const double w = B[i] * volumes[q] * side.norm();
@@ -177,8 +182,7 @@ namespace EBSMPM
                 for (unsigned int d = 0; d < dim; ++d)
                   {
                     local[i].vector[d] += w * side[d];
-                    for (unsigned int e = 0; e < dim; ++e)
-                      local[i].tensor[dim * d + e] += w * side[d] * side[e];
+                    local[i].axis[d] += w * axis[d];
                   }
               }
           }
@@ -194,24 +198,23 @@ namespace EBSMPM
     for (const auto &entry : sums)
       {
         const Sums          &sum      = entry.second;
+        const auto          &shape    = ridge.table().at(entry.first);
         FunctionData        &function = table[entry.first];
         const Tensor<1, dim> mean     = to_tensor(sum.vector);
-        function.owner                = ridge.table().at(entry.first).owner;
+        function.owner                = shape.owner;
         if (sum.volume == 0.)
           continue;
-        SymmetricTensor<2, dim> tensor;
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int e = d; e < dim; ++e)
-            tensor[d][e] = sum.tensor[dim * d + e] / sum.volume;
-        const auto axes = eigenvectors(tensor);
-        function.at_junction =
-          axes[0].first < least_coherence &&
-          sum.settled_volume < 0.5 * sum.volume;
+        function.at_junction = shape.variance_ratio > junction_ratio &&
+                               shape.least_variance > junction_variance &&
+                               sum.settled_volume < 0.5 * sum.volume;
 
         // As much material on either side: go to the fixed one.
-        const Tensor<1, dim> side = mean.norm() > tie * sum.volume ?
-                                      mean / mean.norm() :
-                                      canonical(axes[0].second);
+        // (Points next to a slit have sides before there is a ridge.)
+        const Tensor<1, dim> axis = to_tensor(sum.axis);
+        const Tensor<1, dim> side =
+          mean.norm() > tie * sum.volume ? mean / mean.norm() :
+          axis.norm() > tie * sum.volume ? axis / axis.norm() :
+                                           to_tensor(shape.normal);
         function.side = to_array(side);
       }
   }

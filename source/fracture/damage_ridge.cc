@@ -215,6 +215,7 @@ namespace EBSMPM
             continue;
           }
         function.variance_ratio = crest->second.variance_ratio;
+        function.least_variance = crest->second.least_variance;
         function.normal         = crest->second.normal;
         function.centroid       = crest->second.centroid;
       }
@@ -276,8 +277,10 @@ namespace EBSMPM
     const double     next = axes[dim - 2].first;
     const Point<dim> x =
       space->lattice().greville_point(center, space->degree());
-    function.variance_ratio =
-      next > 0. ? std::max(axes[dim - 1].first, 0.) / next : 1.;
+    const double     least = std::max(axes[dim - 1].first, 0.);
+    const double     r     = radius * space->lattice().cell_extents(center.level)[0];
+    function.variance_ratio = next > 0. ? least / next : 1.;
+    function.least_variance = least / (r * r);
     function.normal   = to_array(canonical(axes[dim - 1].second));
     function.centroid = to_array(Tensor<1, dim>(x + mean));
   }

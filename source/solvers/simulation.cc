@@ -436,6 +436,24 @@ namespace EBSMPM
 
 
   template <int dim>
+  const MaterialPoints<dim> &
+  Simulation<dim>::material_points() const
+  {
+    return points;
+  }
+
+
+
+  template <int dim>
+  double
+  Simulation<dim>::driven_force() const
+  {
+    return last_force;
+  }
+
+
+
+  template <int dim>
   std::pair<double, double>
   Simulation<dim>::table_entry(const double load) const
   {
@@ -520,6 +538,7 @@ namespace EBSMPM
         last_increment = increment;
         write_step(n_step, load, report);
         step->accept();
+        signals.step_done(n_step, load, report);
         if (parameters.output.interval > 0 &&
             n_step % parameters.output.interval == 0)
           write_fields(n_step, load);

@@ -37,7 +37,7 @@ void
 test(const std::string &blocks)
 {
   parallel::distributed::Triangulation<dim> triangulation(MPI_COMM_WORLD);
-  GridGenerator::subdivided_hyper_cube(triangulation, 20, -0.1, 1.9);
+  GridGenerator::subdivided_hyper_cube(triangulation, 24, -0.1, 2.3);
   MappingCartesian<dim> mapping;
   MaterialPoints<dim>   material_points(triangulation, mapping);
   BoundaryPoints<dim>   boundary_material_points(triangulation, mapping);
@@ -48,7 +48,7 @@ test(const std::string &blocks)
   PointGenerator::fill(*shape, fill, material_points);
   PointGenerator::boundary<dim>(*shape,
                                 {{0, "x < 0.5 && y < 1e-9"},
-                                 {1, "x < 1.1 && y < 1e-9"}},
+                                 {1, "x < 1.5 && y < 1e-9"}},
                                 0.05,
                                 boundary_material_points);
 
@@ -124,7 +124,7 @@ test(const std::string &blocks)
   for (unsigned int q = 0; q < points.n_points(); ++q)
     {
       const double x        = points.location(q)[0];
-      const unsigned int block = x < 0.5 ? 0 : x < 1.1 ? 1 : 2;
+      const unsigned int block = x < 0.5 ? 0 : x < 1.5 ? 1 : 2;
       Tensor<1, dim> expected;
       expected[0] = (block == 0 ? push : 0.);
       errors[block] =
@@ -146,7 +146,7 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   mpi_initlog();
 
-  test<2>("box(0,0, 0.3,0.8) + box(0.7,0, 0.98,0.6) + box(1.33,0.31, 1.62,0.9)");
-  test<3>("box(0,0,0, 0.3,0.4,0.3) + box(0.7,0,0, 0.98,0.3,0.3) +"
-          " box(1.33,0.31,0, 1.62,0.6,0.3)");
+  test<2>("box(0,0, 0.3,0.8) + box(0.9,0, 1.18,0.6) + box(1.83,0.31, 2.12,0.9)");
+  test<3>("box(0,0,0, 0.3,0.4,0.3) + box(0.9,0,0, 1.18,0.3,0.3) +"
+          " box(1.83,0.31,0, 2.12,0.6,0.3)");
 }

@@ -20,15 +20,10 @@ resolution of the paper, a case takes between 2 and 30 minutes. The table of all
 cases is stored in tension_study.output next to this file.
 """
 
-import argparse
-import concurrent.futures
-import csv
-import os
-import shutil
-import subprocess
-import sys
+import study
 
-SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
+# Nothing happens any more once the load is gone for good.
+BASE = {"": "step-5/step-5.prm", "Loading/Stop below": "1e-12"}
 
 # The notch: a gap of three cells is what step-5.prm says.
 DAMAGE = {
@@ -64,7 +59,7 @@ def single(du):
 
 def coarse(n_cells, passes=1):
     return {
-        "": "coarse.prm",
+        "": "step-5/coarse.prm",
         "Background grid/Cell size": f"1/{n_cells}",
         "Staggered/Maximum passes": str(passes),
     }
@@ -111,46 +106,9 @@ CASES = {
 }
 
 
-def run(program, folder, name):
-    """Run a case, unless it has been run to its end."""
-    directory = os.path.join(folder, name)
-    if is_finished(directory):
-        return
-    settings = {"": "step-5.prm"}
-    for part in CASES[name]:
-        settings.update(part)
-    command = [program, os.path.join(SOURCE, "tutorials/step-5", settings.pop(""))]
-    settings["Output/Directory"] = directory
-    settings.setdefault("Output/Interval", "1000")
-    # Nothing happens any more once the load is gone for good.
-    settings["Loading/Stop below"] = "1e-12"
-    for key, value in settings.items():
-        command += ["--set", f"{key} = {value}"]
-    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1")
-    if os.path.isdir(directory):
-        shutil.rmtree(directory)
-    os.makedirs(directory)
-    with open(os.path.join(directory, "screen.txt"), "w") as screen:
-        subprocess.run(command, stdout=screen, stderr=screen, env=environment)
-
-
-def is_finished(directory):
-    """Whether a run has written the last line of its log."""
-    try:
-        with open(os.path.join(directory, "log.txt")) as log:
-            return log.read().splitlines()[-1].startswith("finished")
-    except (OSError, IndexError):
-        return False
-
-
-def read(folder, name):
-    with open(os.path.join(folder, name, "history.csv")) as file:
-        rows = list(csv.DictReader(file))
-    return [{key: float(value) for key, value in row.items()} for row in rows]
-
-
-def describe(rows):
+def describe(directory):
     """One line of the table."""
+    rows = study.read(directory)
     peak = max(rows, key=lambda row: row["force"])
     zero = None
     for row in reversed(rows):
@@ -168,38 +126,11 @@ def describe(rows):
     )
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("program")
-    parser.add_argument("folder")
-    parser.add_argument("cases", nargs="*", metavar="CASE")
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--table", action="store_true")
-    options = parser.parse_intermixed_args()
-    cases = options.cases or list(CASES)
-    for name in cases:
-        if name not in CASES:
-            sys.exit(f"There is no case '{name}', but {', '.join(CASES)}.")
-
-    if not options.table:
-        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            jobs = [
-                pool.submit(run, options.program, options.folder, name)
-                for name in cases
-            ]
-            for job in jobs:
-                job.result()
-
-    print(
-        f"{'case':26}  {'peak':6}  {'at':7}  {'zero from':8}  {'end':6}"
-        f"  {'load there':>10}  steps  passes   worst  time/s"
-    )
-    for name in cases:
-        try:
-            print(f"{name:26}  {describe(read(options.folder, name))}")
-        except (OSError, ValueError):
-            print(f"{name:26}  not run")
-
-
 if __name__ == "__main__":
-    main()
+    study.main(
+        __doc__,
+        {name: [BASE] + parts for name, parts in CASES.items()},
+        f"{'peak':6}  {'at':7}  {'zero from':8}  {'end':6}"
+        f"  {'load there':>10}  steps  passes   worst  time/s",
+        describe,
+    )

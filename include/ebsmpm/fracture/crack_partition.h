@@ -86,16 +86,16 @@ namespace EBSMPM
    *    and the point reads a separable function.
    * 4. The side vector $\mathbf m_I$ of a function is the mean of its points',
    *    weighted by volume: the side with more material owns it.
-   *    The direction $\mathbf T_I=\sum_p B_I V_p\,\mathbf m_p\otimes\mathbf m_p/
-   *    \sum_p B_I V_p$ of these must be clear as well: where its largest
-   *    eigenvalue is less than 0.8, several cracks meet, and two sides are not
-   *    enough. Such a function stays whole (n_junctions()), unless most of the
-   *    material around has settled sides: then there was a crack before.
    * 5. A function is separable if a damage above $d_\text{cr}$ is met between
    *    $-h$ and $+2h$ from it along $\mathbf m_I$ (for a function outside of
    *    the body, anywhere in its support). This is decided per function, not
    *    per cell, so that the field of each side stays $C^{p-1}$ and the opening
-   *    closes smoothly at the tip.
+   *    closes smoothly at the tip. It stays whole in spite of that where the
+   *    ridge has arms in all directions, i.e., the ratio of variances is above
+   *    one half and the smaller one above 1/16 of the square of the radius:
+   *    where cracks meet, two sides are not enough (n_junctions()). If most of
+   *    the material around has settled sides, there was a crack before, and it
+   *    remains one.
    * 6. Closure: a function on a ridge with $d>0.5$ between two separable ones,
    *    or between one and a free boundary, within three cells, is separable as
    *    well. Single functions left over would carry load for ever.
@@ -194,9 +194,8 @@ namespace EBSMPM
     space() const;
 
     /**
-     * Number of functions that should have become separable but have not,
-     * because the sides around them do not agree on a direction: junctions of
-     * cracks.
+     * Number of functions with enough damage ahead to become separable that
+     * have not, because the ridge has no clear direction: junctions of cracks.
      */
     unsigned int
     n_junctions() const;
@@ -218,7 +217,7 @@ namespace EBSMPM
       /** Whether both sides read the function differently. */
       bool separable = false;
 
-      /** Whether the sides of the points around have no common direction. */
+      /** Whether the ridge has no direction here. */
       bool at_junction = false;
 
       /** The lowest rank with points in the support. */
@@ -228,10 +227,10 @@ namespace EBSMPM
     /** A sum over the points of a function's support. */
     struct Sums
     {
-      double                        volume         = 0.;
-      double                        settled_volume = 0.;
-      std::array<double, dim>       vector{};
-      std::array<double, dim * dim> tensor{};
+      double                  volume         = 0.;
+      double                  settled_volume = 0.;
+      std::array<double, dim> vector{};
+      std::array<double, dim> axis{};
     };
 
     using DataTable = typename FunctionDirectory<dim, FunctionData>::Table;

@@ -85,6 +85,9 @@ namespace EBSMPM
       /** Ratio of the two smallest principal variances of the ridge. */
       double variance_ratio = 1.;
 
+      /** The smallest principal variance, over the square of the radius. */
+      double least_variance = 0.;
+
       /** Normal and centroid of the ridge. */
       std::array<double, dim> normal{};
       std::array<double, dim> centroid{};

@@ -69,7 +69,7 @@ namespace EBSMPM
     {
       Notch();
 
-      std::string type           = "slit";
+      std::string type           = "none";
       std::string plane_point    = "0.5, 0.5";
       std::string plane_normal   = "0, 1";
       std::string region         = "half_space(0.5,0.5, 1,0)";

@@ -30,6 +30,8 @@
 
 #include <deal.II/fe/mapping_cartesian.h>
 
+#include <boost/signals2.hpp>
+
 #include <fstream>
 #include <memory>
 
@@ -67,6 +69,31 @@ namespace EBSMPM
                const MPI_Comm    communicator,
                const Overwrite   overwrite,
                std::ostream *    screen);
+
+    /** What others may do during a run. */
+    struct Signals
+    {
+      /**
+       * Called on all processes after a load step has been accepted, with its
+       * number, the load, and how it went. The points are those of the end of
+       * the step.
+       */
+      boost::signals2::signal<void(const unsigned int,
+                                   const double,
+                                   const typename StaggeredStep<dim>::Report &)>
+        step_done;
+    };
+
+    /** Connect functions to these. */
+    Signals signals;
+
+    /** The material points, for functions that are called during a run. */
+    const MaterialPoints<dim> &
+    material_points() const;
+
+    /** The force of the driven boundary in the last step. */
+    double
+    driven_force() const;
 
     /**
      * Run from the beginning to the end. Raises ExcStepFailure if a step fails
