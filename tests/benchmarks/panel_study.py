@@ -101,10 +101,25 @@ for phi in ("0.001", "0.01", "0.05", "0.15"):
     CASES[f"coarse-phi-{phi}"] = [COARSE, {"Extension/Threshold": phi}]
 for beta in ("10", "50", "100", "1000"):
     CASES[f"coarse-beta-{beta}"] = [COARSE, {"Nitsche/Penalty factor": beta}]
+ACCEPT = {"Newton/Indefinite tangent": "accept"}
 CASES["coarse-phi-0.001-beta-1000"] = [
     COARSE,
     {"Extension/Threshold": "0.001", "Nitsche/Penalty factor": "1000"},
 ]
+CASES["coarse-phi-0.001-accept"] = [
+    COARSE,
+    {"Extension/Threshold": "0.001"},
+    ACCEPT,
+]
+CASES["dense-0.001-accept"] = [
+    FINE,
+    DENSE,
+    {"Extension/Threshold": "0.001"},
+    ACCEPT,
+]
+CASES["concrete"] = [CONCRETE]
+CASES["concrete-diffusive"] = [CONCRETE, DIFFUSIVE]
+CASES["concrete-33"] = [CONCRETE, {"Damage/Length scale": "33"}]
 
 
 def turn(vectors, angle):

@@ -91,6 +91,6 @@ def main(documentation, all_cases, header, describe):
             text = describe(directories[name])
             if not is_finished(directories[name]):
                 text += "  (broken off)"
-        except (OSError, ValueError):
+        except (OSError, ValueError, IndexError):
             text = "not run"
         print(f"{name:{width}}  {text}")
