@@ -7,8 +7,10 @@
 //
 // -----------------------------------------------------------------------------
 
-#include <ebsmpm/assembly/connected_pieces.h>
 #include <ebsmpm/lac/types.h>
+
+#include <ebsmpm/assembly/connected_pieces.h>
+#include <ebsmpm/assembly/rigid_motions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -33,25 +35,6 @@ namespace EBSMPM
        * the square of the ratio of the smallest support to the size of a piece.
        */
       constexpr double free_tolerance = 1e-8;
-
-
-
-      /** The rigid motions at @p x, relative to the centre, scaled. */
-      template <int dim>
-      std::array<Tensor<1, dim>, dim *(dim + 1) / 2>
-      rigid_motions(const Tensor<1, dim> &x)
-      {
-        std::array<Tensor<1, dim>, dim *(dim + 1) / 2> motions;
-        for (unsigned int a = 0; a < dim; ++a)
-          motions[a][a] = 1.;
-        for (unsigned int a = 0, m = dim; a < dim; ++a)
-          for (unsigned int b = a + 1; b < dim; ++b, ++m)
-            {
-              motions[m][a] = -x[b];
-              motions[m][b] = x[a];
-            }
-        return motions;
-      }
 
 
 
@@ -95,7 +78,7 @@ namespace EBSMPM
     // There are few pieces, so that everybody may know them all.
     const std::vector<double> labels =
       connect({&groups, &boundary_groups}, functions);
-    std::vector<double> all_labels = labels;
+    std::vector<double> all_labels  = labels;
     const auto          make_unique = [](std::vector<double> &list) {
       std::sort(list.begin(), list.end());
       list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -182,7 +165,7 @@ namespace EBSMPM
     for (unsigned int i = 0; i < n; ++i)
       {
         double &label = smallest[sets.find_set(i)];
-        label = std::min<double>(label, functions->local_to_global(i));
+        label         = std::min<double>(label, functions->local_to_global(i));
       }
 
     // Across processes, the smallest index wins; a piece that winds to and fro
@@ -246,7 +229,8 @@ namespace EBSMPM
     const std::vector<Moments>      &moments,
     const MPI_Comm                  &communicator)
   {
-    constexpr unsigned int size = n_motions * n_motions;
+    constexpr unsigned int n_motions = RigidMotions::n<dim>;
+    constexpr unsigned int size      = n_motions * n_motions;
     std::vector<double>    sums(moments.size() * size, 0.);
     for (unsigned int g = 0; g < boundary_groups.groups().size(); ++g)
       {
@@ -260,7 +244,7 @@ namespace EBSMPM
         for (unsigned int k = group.begin; k < group.end; ++k)
           {
             const unsigned int q       = boundary_groups.point(k);
-            const auto         motions = rigid_motions<dim>(
+            const auto         motions = RigidMotions::at<dim>(
               (boundary_points.location(q) - centre) / radius);
             for (unsigned int a = 0; a < dim; ++a)
               if (boundary.constrained[q][a])

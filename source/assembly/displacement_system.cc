@@ -37,13 +37,12 @@ namespace EBSMPM
 
   template <int dim>
   bool
-  DisplacementSystem<dim>::reinit(
-    const CellPoints<dim> &          points_,
-    const CellPoints<dim> &          boundary_points_,
-    const SplineSpace<dim> &         space,
-    const AffineConstraints<double> &constraints,
-    const std::vector<Pattern> &     patterns,
-    const std::vector<Pattern> &     boundary_patterns)
+  DisplacementSystem<dim>::reinit(const CellPoints<dim>  &points_,
+                                  const CellPoints<dim>  &boundary_points_,
+                                  const SplineSpace<dim> &space,
+                                  const AffineConstraints<double> &constraints,
+                                  const std::vector<Pattern>      &patterns,
+                                  const std::vector<Pattern> &boundary_patterns)
   {
     points          = &points_;
     boundary_points = &boundary_points_;
@@ -124,7 +123,7 @@ namespace EBSMPM
   void
   DisplacementSystem<dim>::hold_branches(const MaterialState<dim> &state,
                                          const BoundaryState<dim> &boundary,
-                                         const LA::FieldVector &   increment)
+                                         const LA::FieldVector    &increment)
   {
     increment.update_ghost_values();
     branches.resize(points->n_points());
@@ -174,8 +173,8 @@ namespace EBSMPM
   void
   DisplacementSystem<dim>::assemble_tangent(const MaterialState<dim> &state,
                                             const BoundaryState<dim> &boundary,
-                                            const LA::FieldVector &   increment,
-                                            LA::FieldVector &         residual)
+                                            const LA::FieldVector    &increment,
+                                            LA::FieldVector          &residual)
   {
     tangent.set_zero();
     assemble(
@@ -190,8 +189,8 @@ namespace EBSMPM
   DisplacementSystem<dim>::assemble_predictor(
     const MaterialState<dim> &state,
     const BoundaryState<dim> &boundary,
-    const LA::FieldVector &   increment,
-    LA::FieldVector &         residual)
+    const LA::FieldVector    &increment,
+    LA::FieldVector          &residual)
   {
     tangent.set_zero();
     assemble(
@@ -290,7 +289,7 @@ namespace EBSMPM
       {
         local.values(k, B.data());
         const Tensor<1, dim> increment = local.value(B.data());
-        const double mass = mass_density * state.volume[local.point(k)];
+        const double         mass = mass_density * state.volume[local.point(k)];
         for (unsigned int i = 0; i < n; ++i)
           local.residual[i] += mass * B[i] * increment;
         if (task != AssemblyTask::residual)
@@ -305,7 +304,7 @@ namespace EBSMPM
 
   template <int dim>
   void
-  DisplacementSystem<dim>::add_body_force(const MaterialState<dim> &    state,
+  DisplacementSystem<dim>::add_body_force(const MaterialState<dim>     &state,
                                           const TensorFunction<1, dim> &force,
                                           LA::FieldVector &residual) const
   {
@@ -342,8 +341,8 @@ namespace EBSMPM
   void
   DisplacementSystem<dim>::driving_energy(
     const MaterialState<dim> &state,
-    const LA::FieldVector &   increment,
-    std::vector<double> &     psi_degraded) const
+    const LA::FieldVector    &increment,
+    std::vector<double>      &psi_degraded) const
   {
     increment.update_ghost_values();
     psi_degraded.resize(points->n_points());
@@ -363,7 +362,7 @@ namespace EBSMPM
   typename DisplacementSystem<dim>::Energies
   DisplacementSystem<dim>::energies(const MaterialState<dim> &state,
                                     const BoundaryState<dim> &boundary,
-                                    const LA::FieldVector &   increment) const
+                                    const LA::FieldVector    &increment) const
   {
     increment.update_ghost_values();
     Energies result;
@@ -482,7 +481,7 @@ namespace EBSMPM
   template <int dim>
   void
   DisplacementSystem<dim>::boundary_driving(const BoundaryState<dim> &boundary,
-                                            const LA::FieldVector &   increment,
+                                            const LA::FieldVector    &increment,
                                             std::vector<double> &driving) const
   {
     increment.update_ghost_values();

@@ -13,7 +13,7 @@ namespace EBSMPM
 {
   template <int dim>
   FieldSnapshot<dim>::FieldSnapshot(const SplineSpace<dim> &space,
-                                    const LA::FieldVector & original)
+                                    const LA::FieldVector  &original)
   {
     reinit(space, original);
   }
@@ -23,7 +23,7 @@ namespace EBSMPM
   template <int dim>
   void
   FieldSnapshot<dim>::reinit(const SplineSpace<dim> &space,
-                             const LA::FieldVector & original)
+                             const LA::FieldVector  &original)
   {
     if (original.size() == 0)
       return;
@@ -49,7 +49,7 @@ namespace EBSMPM
   template <int n_components>
   void
   FieldSnapshot<dim>::transfer(const SplineSpace<dim> &space,
-                               LA::FieldVector &       target) const
+                               LA::FieldVector        &target) const
   {
     if (empty())
       return;
@@ -74,9 +74,9 @@ namespace EBSMPM
   std::vector<double>
   cell_coefficients(
     const typename Triangulation<dim>::active_cell_iterator &cell,
-    const SplineSpace<dim> &                                 space,
-    const AffineConstraints<double> &                        constraints,
-    const LA::FieldVector &                                  field)
+    const SplineSpace<dim>                                  &space,
+    const AffineConstraints<double>                         &constraints,
+    const LA::FieldVector                                   &field)
   {
     const auto          index = space.lattice().cell_index(cell);
     const unsigned int  n     = space.n_functions_per_cell();
@@ -107,13 +107,17 @@ namespace EBSMPM
   template class FieldSnapshot<3>;
 
   template void
-  FieldSnapshot<2>::transfer<1>(const SplineSpace<2> &, LA::FieldVector &) const;
+  FieldSnapshot<2>::transfer<1>(const SplineSpace<2> &,
+                                LA::FieldVector &) const;
   template void
-  FieldSnapshot<2>::transfer<2>(const SplineSpace<2> &, LA::FieldVector &) const;
+  FieldSnapshot<2>::transfer<2>(const SplineSpace<2> &,
+                                LA::FieldVector &) const;
   template void
-  FieldSnapshot<3>::transfer<1>(const SplineSpace<3> &, LA::FieldVector &) const;
+  FieldSnapshot<3>::transfer<1>(const SplineSpace<3> &,
+                                LA::FieldVector &) const;
   template void
-  FieldSnapshot<3>::transfer<3>(const SplineSpace<3> &, LA::FieldVector &) const;
+  FieldSnapshot<3>::transfer<3>(const SplineSpace<3> &,
+                                LA::FieldVector &) const;
 
   template std::vector<double>
   cell_coefficients<2, 1>(

@@ -7,8 +7,9 @@
 //
 // -----------------------------------------------------------------------------
 
-#include <ebsmpm/fracture/crack_opening.h>
 #include <ebsmpm/splines/bspline_kernel.h>
+
+#include <ebsmpm/fracture/crack_opening.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -63,12 +64,13 @@ namespace EBSMPM
         Tensor<1, dim> x, X, M;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            x[d] = sides[1].x[d] / sides[1].volume -
-                   sides[0].x[d] / sides[0].volume;
-            X[d] = sides[1].X[d] / sides[1].volume -
-                   sides[0].X[d] / sides[0].volume;
+            x[d] =
+              sides[1].x[d] / sides[1].volume - sides[0].x[d] / sides[0].volume;
+            X[d] =
+              sides[1].X[d] / sides[1].volume - sides[0].X[d] / sides[0].volume;
             for (unsigned int e = 0; e < dim; ++e)
-              M[d] += (sides[0].F[dim * e + d] + sides[1].F[dim * e + d]) * m[e];
+              M[d] +=
+                (sides[0].F[dim * e + d] + sides[1].F[dim * e + d]) * m[e];
           }
         return x * m - X * M / M.norm();
       }
@@ -109,7 +111,8 @@ namespace EBSMPM
           for (unsigned int q = cell.begin; q < cell.end; ++q)
             {
               kernel.values(points.unit_point(q), B.data());
-              const double w = B[i] * volumes[q] / Utilities::fixed_power<dim>(h);
+              const double w =
+                B[i] * volumes[q] / Utilities::fixed_power<dim>(h);
               const unsigned int   other = (partition.patterns()[q] >> i) & 1;
               const Tensor<1, dim> start = points.location(q) - origin;
               Side<dim>           &side  = sides[other];
@@ -136,9 +139,9 @@ namespace EBSMPM
           entry.second[1].volume > least_fraction)
         {
           ++n_places;
-          smallest = std::min(smallest,
-                              opening(entry.second,
-                                      partition.side_of(entry.first)));
+          smallest =
+            std::min(smallest,
+                     opening(entry.second, partition.side_of(entry.first)));
         }
 
     // A function on a border between processes counts more than once, which is

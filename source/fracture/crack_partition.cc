@@ -34,11 +34,11 @@ namespace EBSMPM
       constexpr double strip = 0.26;
 
       /**
-       * Where cracks meet, the ridge has no direction but arms: the ratio of its
-       * principal variances is larger than the first number, and the smaller
-       * one, over the square of the radius, larger than the second. (Straight
-       * arms of full length have 1/6 in all directions, and the end of a ridge,
-       * or a new one, has less than 1/32.)
+       * Where cracks meet, the ridge has no direction but arms: the ratio of
+       * its principal variances is larger than the first number, and the
+       * smaller one, over the square of the radius, larger than the second.
+       * (Straight arms of full length have 1/6 in all directions, and the end
+       * of a ridge, or a new one, has less than 1/32.)
        */
       constexpr double junction_ratio    = 0.5;
       constexpr double junction_variance = 1. / 16.;
@@ -65,20 +65,21 @@ namespace EBSMPM
 
   template <int dim>
   bool
-  CrackPartition<dim>::update(const CellPoints<dim> &    points,
-                              const CellPoints<dim> &    boundary_points,
+  CrackPartition<dim>::update(const CellPoints<dim>     &points,
+                              const CellPoints<dim>     &boundary_points,
                               const std::vector<double> &volumes,
                               const std::vector<double> &damage,
-                              CrackLabels<dim> &         labels,
-                              CrackLabels<dim> &         boundary_labels)
+                              CrackLabels<dim>          &labels,
+                              CrackLabels<dim>          &boundary_labels)
   {
     if (data.grow)
       for (unsigned int q = 0; q < points.n_points(); ++q)
         labels.peak_damage[q] = std::max(labels.peak_damage[q], damage[q]);
 
     select_cells(points, damage, labels);
-    const bool anything = (Utilities::MPI::max(active_cells.empty() ? 0U : 1U,
-                                               spline_space->communicator()) > 0);
+    const bool anything =
+      (Utilities::MPI::max(active_cells.empty() ? 0U : 1U,
+                           spline_space->communicator()) > 0);
     if (anything)
       {
         ridge.smooth_damage(points, active_cells, volumes, damage);
@@ -105,9 +106,9 @@ namespace EBSMPM
 
   template <int dim>
   void
-  CrackPartition<dim>::select_cells(const CellPoints<dim> &    points,
+  CrackPartition<dim>::select_cells(const CellPoints<dim>     &points,
                                     const std::vector<double> &damage,
-                                    const CrackLabels<dim> &   labels)
+                                    const CrackLabels<dim>    &labels)
   {
     active_cells.clear();
     ridge.clear();
@@ -131,7 +132,7 @@ namespace EBSMPM
   template <int dim>
   void
   CrackPartition<dim>::label_points(const CellPoints<dim> &points,
-                                    CrackLabels<dim> &     labels) const
+                                    CrackLabels<dim>      &labels) const
   {
     for (const auto &cell : points.cells())
       for (unsigned int q = cell.begin; q < cell.end; ++q)
@@ -144,9 +145,9 @@ namespace EBSMPM
 
   template <int dim>
   void
-  CrackPartition<dim>::find_sides(const CellPoints<dim> &    points,
+  CrackPartition<dim>::find_sides(const CellPoints<dim>     &points,
                                   const std::vector<double> &volumes,
-                                  const CrackLabels<dim> &   labels)
+                                  const CrackLabels<dim>    &labels)
   {
     const BSplineKernel<dim>           kernel(spline_space->degree());
     const unsigned int                 n = kernel.n_functions();
@@ -188,9 +189,9 @@ namespace EBSMPM
           }
         for (unsigned int i = 0; i < n; ++i)
           {
-            Sums &sum = sums[spline_space->cell_function(
-              cell.index, cell.level, i)];
-            sum       = add(sum, local[i]);
+            Sums &sum =
+              sums[spline_space->cell_function(cell.index, cell.level, i)];
+            sum = add(sum, local[i]);
           }
       }
     sums = directory.reduce(sums, add);
@@ -223,7 +224,7 @@ namespace EBSMPM
 
   template <int dim>
   void
-  CrackPartition<dim>::find_separable(const CellPoints<dim> & points,
+  CrackPartition<dim>::find_separable(const CellPoints<dim>  &points,
                                       const CrackLabels<dim> &labels)
   {
     // Points see functions beyond those of their own cell: up to two cells
@@ -246,8 +247,8 @@ namespace EBSMPM
     const int                                   p = spline_space->degree();
     for (const unsigned int c : active_cells)
       {
-        const auto &       cell  = points.cells()[c];
-        const double       h     = spline_space->lattice().cell_extents(cell.level)[0];
+        const auto  &cell = points.cells()[c];
+        const double h    = spline_space->lattice().cell_extents(cell.level)[0];
         const unsigned int width = p + 1 + 2 * ring;
         const unsigned int n     = Utilities::pow(width, dim);
         for (unsigned int i = 0; i < n; ++i)
@@ -263,7 +264,8 @@ namespace EBSMPM
               continue;
 
             const Point<dim> x =
-              spline_space->lattice().greville_point(key, spline_space->degree());
+              spline_space->lattice().greville_point(key,
+                                                     spline_space->degree());
             Met met;
             for (unsigned int q = cell.begin; q < cell.end; ++q)
               {
@@ -320,8 +322,10 @@ namespace EBSMPM
       if (!entry.second.separable && !entry.second.at_junction &&
           entry.second.damage_ahead > data.closure_damage)
         candidates.push_back(entry.first);
-    const DataTable around =
-      surroundings(table, candidates, closure_reach, spline_space->communicator());
+    const DataTable around = surroundings(table,
+                                          candidates,
+                                          closure_reach,
+                                          spline_space->communicator());
 
     // Which of the others exist at all.
     std::vector<Key> unknown;
@@ -348,7 +352,9 @@ namespace EBSMPM
         std::vector<Tensor<1, dim>> separable, outside;
         for_each_neighbour(key, closure_reach, [&](const Key &other) {
           const Tensor<1, dim> offset =
-            spline_space->lattice().greville_point(other, spline_space->degree()) - x;
+            spline_space->lattice().greville_point(other,
+                                                   spline_space->degree()) -
+            x;
           const double         along  = offset * m;
           const Tensor<1, dim> across = offset - along * m;
           if (across.norm() < 0.5 * h ||
@@ -385,8 +391,8 @@ namespace EBSMPM
   template <int dim>
   bool
   CrackPartition<dim>::make_patterns(const CellPoints<dim> &points,
-                                     CrackLabels<dim> &     labels,
-                                     std::vector<Pattern> & patterns) const
+                                     CrackLabels<dim>      &labels,
+                                     std::vector<Pattern>  &patterns) const
   {
     std::vector<Pattern> result(points.n_points(), 0);
     const unsigned int   n = spline_space->n_functions_per_cell();
@@ -397,8 +403,8 @@ namespace EBSMPM
         bool any = false;
         for (unsigned int i = 0; i < n; ++i)
           {
-            const auto found =
-              table.find(spline_space->cell_function(cell.index, cell.level, i));
+            const auto found = table.find(
+              spline_space->cell_function(cell.index, cell.level, i));
             if (found != table.end() && found->second.separable)
               {
                 functions[i] = &found->second;

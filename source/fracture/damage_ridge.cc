@@ -277,12 +277,12 @@ namespace EBSMPM
     const double     next = axes[dim - 2].first;
     const Point<dim> x =
       space->lattice().greville_point(center, space->degree());
-    const double     least = std::max(axes[dim - 1].first, 0.);
-    const double     r     = radius * space->lattice().cell_extents(center.level)[0];
+    const double least = std::max(axes[dim - 1].first, 0.);
+    const double r = radius * space->lattice().cell_extents(center.level)[0];
     function.variance_ratio = next > 0. ? least / next : 1.;
     function.least_variance = least / (r * r);
-    function.normal   = to_array(canonical(axes[dim - 1].second));
-    function.centroid = to_array(Tensor<1, dim>(x + mean));
+    function.normal         = to_array(canonical(axes[dim - 1].second));
+    function.centroid       = to_array(Tensor<1, dim>(x + mean));
   }
 
 

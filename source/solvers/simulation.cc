@@ -9,14 +9,18 @@
 
 #include <ebsmpm/base/compat.h>
 #include <ebsmpm/base/exceptions.h>
+
 #include <ebsmpm/materials/elastic_constants.h>
 #include <ebsmpm/materials/make_material.h>
-#include <ebsmpm/output/grid_writer.h>
-#include <ebsmpm/output/point_writer.h>
+
 #include <ebsmpm/particles/generators.h>
 #include <ebsmpm/particles/notch.h>
 #include <ebsmpm/particles/shape_parser.h>
+
 #include <ebsmpm/solvers/simulation.h>
+
+#include <ebsmpm/output/grid_writer.h>
+#include <ebsmpm/output/point_writer.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -44,7 +48,8 @@ namespace EBSMPM
       std::map<std::string, double>
       constants(const Parameters &parameters)
       {
-        return {{"h", parameters.cell_size()}, {"l", parameters.length_scale()}};
+        return {{"h", parameters.cell_size()},
+                {"l", parameters.length_scale()}};
       }
 
 
@@ -106,7 +111,7 @@ namespace EBSMPM
   Simulation<dim>::Simulation(const Parameters &parameters,
                               const MPI_Comm    communicator,
                               const Overwrite   overwrite,
-                              std::ostream *    screen)
+                              std::ostream     *screen)
     : parameters(parameters)
     , communicator(communicator)
     , overwrite(overwrite)
@@ -205,12 +210,11 @@ namespace EBSMPM
     for (const auto &boundary : parameters.boundaries())
       selections.push_back(
         {static_cast<types::boundary_id>(selections.size()), boundary.second});
-    PointGenerator::boundary<dim>(*body,
-                                  selections,
-                                  parameters.number(
-                                    "Body/Boundary point spacing",
-                                    parameters.body.spacing),
-                                  boundary_points);
+    PointGenerator::boundary<dim>(
+      *body,
+      selections,
+      parameters.number("Body/Boundary point spacing", parameters.body.spacing),
+      boundary_points);
   }
 
 
@@ -223,8 +227,8 @@ namespace EBSMPM
     if (notch.type == "slit")
       {
         Notch::Slit<dim> slit;
-        slit.point = parameters.point<dim>("Notch/Plane point",
-                                           notch.plane_point);
+        slit.point =
+          parameters.point<dim>("Notch/Plane point", notch.plane_point);
         slit.normal =
           parameters.point<dim>("Notch/Plane normal", notch.plane_normal);
         AssertThrow(slit.normal.norm() > 0.,
@@ -240,11 +244,12 @@ namespace EBSMPM
         Notch::label_slit<dim>(slit, points, boundary_points);
       }
     else if (notch.type == "damage")
-      Notch::initial_history<dim>(
-        *parse_shape<dim>(notch.region, constants(parameters)),
-        notch.history_factor * parameters.damage.fracture_energy /
-          (2. * parameters.length_scale()),
-        points);
+      Notch::initial_history<dim>(*parse_shape<dim>(notch.region,
+                                                    constants(parameters)),
+                                  notch.history_factor *
+                                    parameters.damage.fracture_energy /
+                                    (2. * parameters.length_scale()),
+                                  points);
   }
 
 
@@ -327,15 +332,14 @@ namespace EBSMPM
 
   template <int dim>
   void
-  Simulation<dim>::write_step(
-    const unsigned int                         n_step,
-    const double                               load,
-    const typename StaggeredStep<dim>::Report &report)
+  Simulation<dim>::write_step(const unsigned int                         n_step,
+                              const double                               load,
+                              const typename StaggeredStep<dim>::Report &report)
   {
-    const auto & reactions = step->reactions();
+    const auto  &reactions = step->reactions();
     const auto   energies  = step->energies();
     const double area      = step->crack_area();
-    const auto & space     = step->displacement_space();
+    const auto  &space     = step->displacement_space();
     const auto   driven    = parameters.driven();
 
     std::vector<double> values;
@@ -347,26 +351,25 @@ namespace EBSMPM
       }
     last_force = values[dim * driven.first + driven.second];
     peak_force = std::max(peak_force, std::abs(last_force));
-    for (const double value :
-         {energies.elastic,
-          area * parameters.damage.fracture_energy,
-          energies.penalty,
-          area,
-          1. * report.passes,
-          1. * report.newton_iterations,
-          1. * report.linear_iterations,
-          1. * report.refreshes,
-          1. * report.bisections,
-          report.damage_change,
-          report.residual,
-          1. * space.n_independent(),
-          1. * space.n_deficient(),
-          1. * space.n_twins(),
-          step->extension_report().max_lebesgue,
-          1. * report.n_pieces,
-          1. * report.n_free_pieces,
-          report.opening.smallest,
-          wall_clock.wall_time()})
+    for (const double value : {energies.elastic,
+                               area * parameters.damage.fracture_energy,
+                               energies.penalty,
+                               area,
+                               1. * report.passes,
+                               1. * report.newton_iterations,
+                               1. * report.linear_iterations,
+                               1. * report.refreshes,
+                               1. * report.bisections,
+                               report.damage_change,
+                               report.residual,
+                               1. * space.n_independent(),
+                               1. * space.n_deficient(),
+                               1. * space.n_twins(),
+                               step->extension_report().max_lebesgue,
+                               1. * report.n_pieces,
+                               1. * report.n_free_pieces,
+                               report.opening.smallest,
+                               wall_clock.wall_time()})
       values.push_back(value);
     history->write(n_step, load, last_force, values);
 
@@ -401,7 +404,7 @@ namespace EBSMPM
     TimerOutput::Scope scope(timer, "output");
 
     PointWriter<dim> point_writer;
-    using Particle = typename PointWriter<dim>::Particle;
+    using Particle  = typename PointWriter<dim>::Particle;
     const auto view = [](Particle &particle) {
       return MaterialPoint<dim>(particle.get_properties());
     };
@@ -476,16 +479,16 @@ namespace EBSMPM
       make_grid();
       make_points();
       make_notch();
-      step = std::make_unique<StaggeredStep<dim>>(
-        points,
-        boundary_points,
-        *material,
-        degradation,
-        parameters.damage.fracture_energy,
-        parameters.length_scale(),
-        penalty,
-        parameters.step_data<dim>(),
-        &timer);
+      step =
+        std::make_unique<StaggeredStep<dim>>(points,
+                                             boundary_points,
+                                             *material,
+                                             degradation,
+                                             parameters.damage.fracture_energy,
+                                             parameters.length_scale(),
+                                             penalty,
+                                             parameters.step_data<dim>(),
+                                             &timer);
     }
     write_header();
 
@@ -497,7 +500,7 @@ namespace EBSMPM
     for (auto entry = table_entry(load); entry.first > 0.;
          entry      = table_entry(load))
       {
-        // Up to the end of the interval, without a sliver before it.
+             // Up to the end of the interval, without a sliver before it.
         double increment = std::min(entry.first, allowed);
         if (load + increment > entry.second - 1e-6 * increment)
           increment = entry.second - load;
@@ -508,29 +511,29 @@ namespace EBSMPM
         typename StaggeredStep<dim>::Report report;
         try
           {
-            report = step->solve(conditions,
-                                 next,
-                                 last_increment > 0. ?
-                                   increment / last_increment :
-                                   0.);
+                 report =
+                   step->solve(conditions,
+                          next,
+                          last_increment > 0. ? increment / last_increment :
+                                                     0.);
           }
         catch (const ExcSolverFailure &exception)
           {
-            std::ostringstream message;
-            exception.print_info(message);
-            failure = Utilities::trim(message.str());
-            allowed = 0.5 * increment;
+                 std::ostringstream message;
+                 exception.print_info(message);
+                 failure = Utilities::trim(message.str());
+                 allowed = 0.5 * increment;
 
-            std::ostringstream text;
-            text << "step " << std::setw(5) << n_step + 1 << "  load "
-                 << std::setw(11) << next << "  failed: " << failure
-                 << " Trying increment " << allowed << ".\n";
-            pcout << text.str() << std::flush;
-            if (log_file)
+                 std::ostringstream text;
+                 text << "step " << std::setw(5) << n_step + 1 << "  load "
+                      << std::setw(11) << next << "  failed: " << failure
+                      << " Trying increment " << allowed << ".\n";
+                 pcout << text.str() << std::flush;
+                 if (log_file)
               log_file << text.str() << std::flush;
             AssertThrow(allowed >= parameters.loading.minimum_increment,
                         ExcStepFailure(n_step + 1, increment, failure));
-            continue;
+                 continue;
           }
 
         ++n_step;

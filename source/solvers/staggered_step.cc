@@ -7,8 +7,11 @@
 //
 // -----------------------------------------------------------------------------
 
-#include <ebsmpm/assembly/supports.h>
 #include <ebsmpm/base/exceptions.h>
+
+#include <ebsmpm/assembly/rigid_motions.h>
+#include <ebsmpm/assembly/supports.h>
+
 #include <ebsmpm/solvers/staggered_step.h>
 
 #include <deal.II/base/mpi.h>
@@ -20,15 +23,15 @@
 namespace EBSMPM
 {
   template <int dim>
-  StaggeredStep<dim>::StaggeredStep(MaterialPoints<dim> & points,
-                                    BoundaryPoints<dim> & boundary_points,
-                                    const Material<dim> & material,
-                                    const Degradation &   degradation,
+  StaggeredStep<dim>::StaggeredStep(MaterialPoints<dim>  &points,
+                                    BoundaryPoints<dim>  &boundary_points,
+                                    const Material<dim>  &material,
+                                    const Degradation    &degradation,
                                     const double          fracture_energy,
                                     const double          length_scale,
                                     const double          penalty,
                                     const AdditionalData &data,
-                                    TimerOutput *         timer_)
+                                    TimerOutput          *timer_)
     : material_points(points)
     , boundary_material_points(boundary_points)
     , degradation(degradation)
@@ -95,7 +98,7 @@ namespace EBSMPM
       }
 
     // The damage sees both sides of a crack.
-    const FieldSnapshot<dim> old_damage(d_space, d_field);
+    const FieldSnapshot<dim>                old_damage(d_space, d_field);
     typename SplineSpace<dim>::SupportTable supports;
     add_supports<dim>(points, current_volume, {}, d_space, supports);
     add_supports<dim>(boundary_points, {}, {}, d_space, supports);
@@ -139,48 +142,14 @@ namespace EBSMPM
                         partition.boundary_patterns()))
       {
         u_solver.clear();
-        set_near_null_space();
+        u_solver.set_near_null_space(RigidMotions::coefficients(
+          u_space, u_system.matrix().locally_owned_range_indices()));
       }
     u_system.hold_free_pieces(state, boundary);
 
     u_system.initialize_vector(u_increment);
     old_increment.template transfer<dim>(u_space, u_increment);
     space_is_current = true;
-  }
-
-
-
-  template <int dim>
-  void
-  StaggeredStep<dim>::set_near_null_space()
-  {
-    const IndexSet rows = u_system.matrix().locally_owned_range_indices();
-    const unsigned int n_modes = dim * (dim + 1) / 2;
-    std::vector<LA::Vector> modes(
-      n_modes, LA::Vector(rows, u_space.communicator()));
-
-    const auto &owned = u_space.locally_owned_independent();
-    if (owned.n_elements() > 0)
-      {
-        const auto first = owned.nth_index_in_set(0);
-        for (const auto &entry : u_space.functions())
-          {
-            if (!owned.is_element(entry.second.index))
-              continue;
-            const Point<dim> x =
-              u_space.lattice().greville_point(entry.first, data.degree);
-            const unsigned int i = dim * (entry.second.index - first);
-            for (unsigned int a = 0; a < dim; ++a)
-              modes[a].begin()[i + a] = 1.;
-            for (unsigned int a = 0, m = dim; a < dim; ++a)
-              for (unsigned int b = a + 1; b < dim; ++b, ++m)
-                {
-                  modes[m].begin()[i + a] = -x[b];
-                  modes[m].begin()[i + b] = x[a];
-                }
-          }
-      }
-    u_solver.set_near_null_space(modes);
   }
 
 
@@ -234,10 +203,11 @@ namespace EBSMPM
         u_increment *= guess_factor;
       }
 
-    // The force of a broken specimen goes to zero, so compare residuals with the
-    // largest one so far; before there is any, with the first residual. That is
-    // large, as no Dirichlet data are met yet, but what is lost by roundoff is
-    // a part of it, and a piece that nothing holds never has a force.
+    // The force of a broken specimen goes to zero, so compare residuals with
+    // the largest one so far; before there is any, with the first residual.
+    // That is large, as no Dirichlet data are met yet, but what is lost by
+    // roundoff is a part of it, and a piece that nothing holds never has a
+    // force.
     if (first_residual == 0.)
       {
         LA::FieldVector residual = u_system.make_vector();
@@ -262,9 +232,9 @@ namespace EBSMPM
             report.damage_change = solve_damage(relaxation, report);
 
             // Go further while this pays off, and carefully when it does not.
-            relaxation = (report.damage_change < previous_change) ?
-                           std::min(data.max_relaxation, relaxation + 0.1) :
-                           1.;
+            relaxation      = (report.damage_change < previous_change) ?
+                                std::min(data.max_relaxation, relaxation + 0.1) :
+                                1.;
             previous_change = report.damage_change;
 
             if (data.partition && pass <= data.max_partition_passes &&
@@ -292,8 +262,8 @@ namespace EBSMPM
                 // unloaded by that, but must not heal in the next pass.
                 const MaterialPoint<dim> point(points.properties(q));
                 const bool               is_separated =
-                  data.partition && labels.peak_damage[q] >
-                                      data.partition_data.damage_threshold;
+                  data.partition &&
+                  labels.peak_damage[q] > data.partition_data.damage_threshold;
                 if (point.damageable() != 0.)
                   state.history[q] =
                     std::max(is_separated ? state.history[q] : point.history(),
@@ -310,8 +280,8 @@ namespace EBSMPM
                                  std::to_string(report.damage_change) + "."));
     if (data.refuse_indefinite && report.indefinite_at_end)
       check_stability();
-    all_reactions = u_system.reactions(boundary, u_increment, boundary_ids);
-    report.n_pieces      = u_system.pieces().pieces().size();
+    all_reactions   = u_system.reactions(boundary, u_increment, boundary_ids);
+    report.n_pieces = u_system.pieces().pieces().size();
     report.n_free_pieces = u_system.pieces().n_free();
     report.n_junctions   = partition.n_junctions();
     if (u_space.n_twins() > 0)
@@ -328,7 +298,8 @@ namespace EBSMPM
     const auto update = u_system.update_points(state, u_increment);
     std::vector<Tensor<1, dim>> displacements(points.n_points());
     for (unsigned int q = 0; q < points.n_points(); ++q)
-      displacements[q] = MaterialPoint<dim>(points.properties(q)).displacement();
+      displacements[q] =
+        MaterialPoint<dim>(points.properties(q)).displacement();
     return crack_opening(points,
                          partition,
                          state.volume,
@@ -371,8 +342,8 @@ namespace EBSMPM
     LA::FieldVector solution = d_field;
     {
       TimerOutput::Scope scope(*timer, "solve damage");
-      const auto         linear = solve_linear_system(
-        d_solver, d_system.matrix(), rhs, 1e-11, solution);
+      const auto         linear =
+        solve_linear_system(d_solver, d_system.matrix(), rhs, 1e-11, solution);
       report.linear_iterations += linear.iterations;
       report.refreshes += linear.refreshed;
     }
@@ -386,8 +357,8 @@ namespace EBSMPM
     double change = 0.;
     for (unsigned int q = 0; q < points.n_points(); ++q)
       {
-        const double d = std::min(1., std::max(0., at_points[q]));
-        change         = std::max(change, std::abs(d - state.damage[q]));
+        const double d  = std::min(1., std::max(0., at_points[q]));
+        change          = std::max(change, std::abs(d - state.damage[q]));
         state.damage[q] = d;
       }
     for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
@@ -425,8 +396,8 @@ namespace EBSMPM
 
     TimerOutput::Scope scope(*timer, "Newton");
     u_system.release_branches();
-    const double       scale = force_scale;
-    const auto         result =
+    const double scale = force_scale;
+    const auto   result =
       newton.solve(problem, u_solver, scale, tolerance, u_increment);
     report.newton_iterations += result.iterations;
     report.linear_iterations += result.linear_iterations;
@@ -434,9 +405,9 @@ namespace EBSMPM
     report.bisections += result.bisections;
     report.indefinite_at_end = result.indefinite_at_end;
     report.indefinite        = report.indefinite || result.indefinite;
-    report.smoothed   = report.smoothed || result.smoothed;
-    report.residual   = result.residual / (scale > 0. ? scale : 1.);
-    report.residuals  = result.residuals;
+    report.smoothed          = report.smoothed || result.smoothed;
+    report.residual          = result.residual / (scale > 0. ? scale : 1.);
+    report.residuals         = result.residuals;
   }
 
 
@@ -534,7 +505,7 @@ namespace EBSMPM
   void
   StaggeredStep<dim>::cell_damage(
     const typename Triangulation<dim>::active_cell_iterator &cell,
-    std::vector<double> &coefficients) const
+    std::vector<double>                                     &coefficients) const
   {
     coefficients =
       cell_coefficients<dim, 1>(cell, d_space, d_constraints, d_field);

@@ -105,7 +105,7 @@ namespace EBSMPM
 
   template <int dim>
   FunctionKey<dim>
-  CartesianLattice<dim>::nearest_function(const Point<dim> & x,
+  CartesianLattice<dim>::nearest_function(const Point<dim>  &x,
                                           const unsigned int level,
                                           const unsigned int degree) const
   {
@@ -114,9 +114,8 @@ namespace EBSMPM
     FunctionKey<dim>     result;
     result.level = level;
     for (unsigned int d = 0; d < dim; ++d)
-      result.index[d] = static_cast<std::int32_t>(
-        std::floor((x[d] - lower_corner[d]) / h[d] - 0.5 * (1. - degree) + 0.5 +
-                   margin));
+      result.index[d] = static_cast<std::int32_t>(std::floor(
+        (x[d] - lower_corner[d]) / h[d] - 0.5 * (1. - degree) + 0.5 + margin));
     return result;
   }
 

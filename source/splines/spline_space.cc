@@ -8,6 +8,7 @@
 // -----------------------------------------------------------------------------
 
 #include <ebsmpm/base/compat.h>
+
 #include <ebsmpm/splines/spline_space.h>
 
 #include <deal.II/base/mpi.h>
@@ -27,7 +28,7 @@ namespace EBSMPM
        */
       std::pair<types::global_dof_index, types::global_dof_index>
       rank_by_rank(const types::global_dof_index n_local,
-                   const MPI_Comm &              communicator)
+                   const MPI_Comm               &communicator)
       {
         types::global_dof_index first = 0;
         const int               ierr  = MPI_Exscan(&n_local,
@@ -88,11 +89,10 @@ namespace EBSMPM
     // function, and hence so are the classes. The relative margin keeps
     // fractions apart that differ by roundoff only.
     for (auto &entry : table)
-      entry.second.category =
-        entry.first.part != 0 ? FunctionClass::twin :
-        entry.second.fraction > threshold * (1. + 1e-9) ?
-                                FunctionClass::standard :
-                                FunctionClass::deficient;
+      entry.second.category = entry.first.part != 0 ? FunctionClass::twin :
+                              entry.second.fraction > threshold * (1. + 1e-9) ?
+                                                      FunctionClass::standard :
+                                                      FunctionClass::deficient;
 
     // Number what we own, in the order of the keys.
     std::vector<Key> mine[2];
@@ -103,12 +103,13 @@ namespace EBSMPM
     for (auto &keys : mine)
       std::sort(keys.begin(), keys.end());
 
-    const auto independent = rank_by_rank(mine[0].size(), mpi_communicator);
-    const auto dependent   = rank_by_rank(mine[1].size(), mpi_communicator);
+    const auto independent  = rank_by_rank(mine[0].size(), mpi_communicator);
+    const auto dependent    = rank_by_rank(mine[1].size(), mpi_communicator);
     n_independent_functions = independent.second;
     n_active_functions      = independent.second + dependent.second;
-    const types::global_dof_index first[2] = {
-      independent.first, n_independent_functions + dependent.first};
+    const types::global_dof_index first[2] = {independent.first,
+                                              n_independent_functions +
+                                                dependent.first};
 
     types::global_dof_index n_my_twins = 0;
     std::vector<typename FunctionDirectory<dim, Function>::Entry> entries;

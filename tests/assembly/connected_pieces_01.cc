@@ -7,9 +7,9 @@
 //
 // -----------------------------------------------------------------------------
 
-// Three blocks that do not touch: one is clamped, one stands on rollers, and one
-// is held by nothing. Their pieces, and the static problem that the mass of the
-// free ones makes solvable, while the block that is held does not notice.
+// Three blocks that do not touch: one is clamped, one stands on rollers, and
+// one is held by nothing. Their pieces, and the static problem that the mass of
+// the free ones makes solvable, while the block that is held does not notice.
 
 #include <ebsmpm/lac/linear_solver.h>
 
@@ -115,17 +115,17 @@ test(const std::string &blocks)
   problem.matrix = [&]() -> const LA::SparseMatrix & {
     return system.matrix();
   };
-  LinearSolver        linear_solver{LinearSolver::AdditionalData()};
-  const NewtonSolver  newton{NewtonSolver::AdditionalData()};
-  LA::FieldVector     u      = system.make_vector();
-  const auto          report = newton.solve(problem, linear_solver, 1., 1e-10, u);
-  const auto          moved  = system.update_points(state, u);
+  LinearSolver       linear_solver{LinearSolver::AdditionalData()};
+  const NewtonSolver newton{NewtonSolver::AdditionalData()};
+  LA::FieldVector    u = system.make_vector();
+  const auto report    = newton.solve(problem, linear_solver, 1., 1e-10, u);
+  const auto moved     = system.update_points(state, u);
   std::array<double, 3> errors{};
   for (unsigned int q = 0; q < points.n_points(); ++q)
     {
-      const double x        = points.location(q)[0];
+      const double       x     = points.location(q)[0];
       const unsigned int block = x < 0.5 ? 0 : x < 1.5 ? 1 : 2;
-      Tensor<1, dim> expected;
+      Tensor<1, dim>     expected;
       expected[0] = (block == 0 ? push : 0.);
       errors[block] =
         std::max(errors[block],
@@ -146,7 +146,8 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   mpi_initlog();
 
-  test<2>("box(0,0, 0.3,0.8) + box(0.9,0, 1.18,0.6) + box(1.83,0.31, 2.12,0.9)");
+  test<2>(
+    "box(0,0, 0.3,0.8) + box(0.9,0, 1.18,0.6) + box(1.83,0.31, 2.12,0.9)");
   test<3>("box(0,0,0, 0.3,0.4,0.3) + box(0.9,0,0, 1.18,0.3,0.3) +"
           " box(1.83,0.31,0, 2.12,0.6,0.3)");
 }

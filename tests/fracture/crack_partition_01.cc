@@ -12,11 +12,13 @@
 // far the crack reaches, whether gaps are closed, whether a broken body hangs
 // together nowhere, and whether labels and patterns stay once they are settled.
 
-#include <ebsmpm/fracture/crack_opening.h>
-#include <ebsmpm/fracture/crack_partition.h>
 #include <ebsmpm/materials/make_material.h>
+
 #include <ebsmpm/particles/generators.h>
 #include <ebsmpm/particles/shape_parser.h>
+
+#include <ebsmpm/fracture/crack_opening.h>
+#include <ebsmpm/fracture/crack_partition.h>
 
 #include <deal.II/distributed/tria.h>
 
@@ -54,7 +56,7 @@ template <int dim>
 void
 test(const Crack<dim> &crack, const unsigned int n_cells)
 {
-  const double h = 1. / n_cells;
+  const double                              h = 1. / n_cells;
   parallel::distributed::Triangulation<dim> triangulation(MPI_COMM_WORLD);
   GridGenerator::subdivided_hyper_cube(triangulation,
                                        n_cells + 4,
@@ -127,13 +129,13 @@ test(const Crack<dim> &crack, const unsigned int n_cells)
 
   // Points that read twins: how many, on the right side, how far. At a curved
   // or oblique crack, points within a third of a cell may be mistaken.
-  double       n_reading = 0., n_frozen = 0., mistaken = 0.;
+  double n_reading = 0., n_frozen = 0., mistaken = 0.;
   double reach = -1e10;
   for (unsigned int q = 0; q < points.n_points(); ++q)
     if (before[q] != 0)
       {
         const Point<dim> &x = points.location(q);
-        const double s = crack.distance(x);
+        const double      s = crack.distance(x);
         n_reading += 1.;
         n_frozen += labels.frozen[q] ? 1. : 0.;
         if (crack.has_two_sides && above(q) != (s > 0.))
@@ -146,8 +148,7 @@ test(const Crack<dim> &crack, const unsigned int n_cells)
   deallog << dim << "-D, " << crack.name << ": " << sum(n_reading)
           << " points read twins, those on the wrong side are near "
           << verdict(Utilities::MPI::max(mistaken, MPI_COMM_WORLD), 0.35)
-          << ", "
-          << sum(n_frozen) << " settled, stationary "
+          << ", " << sum(n_frozen) << " settled, stationary "
           << (again ? "FAILED" : "OK");
   if (!crack.through)
     deallog << ", reach beyond the tip "
@@ -188,20 +189,19 @@ test(const Crack<dim> &crack, const unsigned int n_cells)
       for (const auto &entry : split.functions())
         if (split.locally_owned_independent().is_element(entry.second.index))
           {
-            const Point<dim> x =
-              split.lattice().greville_point(entry.first, 2);
+            const Point<dim> x = split.lattice().greville_point(entry.first, 2);
             // On which side the function is, if it knows: the one its side
             // vector comes from.
             bool       is_above = crack.distance(x) > 0.;
-            const auto found = supports.find(entry.first);
+            const auto found    = supports.find(entry.first);
             if (found != supports.end())
               {
                 Tensor<1, dim> side;
                 for (unsigned int d = 0; d < dim; ++d)
                   side[d] = found->second.side[d];
                 if (side.norm() > 0.1)
-                  is_above = crack.distance(x + 1e-3 * h * side) <
-                             crack.distance(x);
+                  is_above =
+                    crack.distance(x + 1e-3 * h * side) < crack.distance(x);
               }
             if (is_above)
               u(dim * entry.second.index + dim - 1) = 0.5;
@@ -210,10 +210,9 @@ test(const Crack<dim> &crack, const unsigned int n_cells)
       double     opening  = 0.;
       const auto moved    = system.update_points(state, u);
       for (unsigned int q = 0; q < points.n_points(); ++q)
-        opening = std::max(
-          opening,
-          std::abs(moved.displacement_increment[q][dim - 1] -
-                   (above(q) ? 0.5 : 0.)));
+        opening = std::max(opening,
+                           std::abs(moved.displacement_increment[q][dim - 1] -
+                                    (above(q) ? 0.5 : 0.)));
       // The halves have moved apart, or into each other.
       for (const double factor : {1., -0.2})
         {
@@ -276,19 +275,17 @@ main(int argc, char **argv)
   test<2>({"arc", arc, nowhere, true}, 21);
   test<2>({"gap in the ridge",
            straight(0.5),
-           [h](const Point<2> &x) {
-             return 0.4 * h - std::abs(x[0] - 0.5);
-           },
+           [h](const Point<2> &x) { return 0.4 * h - std::abs(x[0] - 0.5); },
            true},
           21);
   // Three cracks meet: the sides of the points follow the nearest one.
   const auto junction = [](const Point<2> &x) {
     double nearest = 1e10;
-    for (const double angle : {0.1, 0.1 + 2. / 3. * numbers::PI,
-                               0.1 + 4. / 3. * numbers::PI})
+    for (const double angle :
+         {0.1, 0.1 + 2. / 3. * numbers::PI, 0.1 + 4. / 3. * numbers::PI})
       {
         const Tensor<1, 2> offset = x - Point<2>(0.48, 0.51);
-        const double along =
+        const double       along =
           offset[0] * std::cos(angle) + offset[1] * std::sin(angle);
         const double across =
           offset[1] * std::cos(angle) - offset[0] * std::sin(angle);

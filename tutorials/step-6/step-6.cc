@@ -30,6 +30,7 @@
 // @sect3{Include files}
 
 #include <ebsmpm/base/exceptions.h>
+
 #include <ebsmpm/solvers/parameters.h>
 #include <ebsmpm/solvers/simulation.h>
 
@@ -51,13 +52,14 @@ namespace Step6
 
   // @sect3{The CrackObserver class}
 
-  // What we want to know about the crack after each load step. The inner corner,
-  // where it starts, and the part of the panel in which we look for it, are
-  // those of the undeformed panel.
+  // What we want to know about the crack after each load step. The inner
+  // corner, where it starts, and the part of the panel in which we look for it,
+  // are those of the undeformed panel.
   class CrackObserver
   {
   public:
-    CrackObserver(const Simulation<2> &simulation, const Parameters &parameters);
+    CrackObserver(const Simulation<2> &simulation,
+                  const Parameters    &parameters);
 
     void
     observe(const unsigned int n, const double load);
@@ -86,17 +88,17 @@ namespace Step6
   // @sect4{CrackObserver::observe()}
 
   // The state is on the material points, each of which is a deal.II particle
-  // with properties; MaterialPoint gives them names. A process has the points in
-  // its own cells only, hence the sums over all of them.
+  // with properties; MaterialPoint gives them names. A process has the points
+  // in its own cells only, hence the sums over all of them.
   //
   // The tip is the point that is farthest from the corner among those with more
   // damage than what makes a crack discrete. A point whose
-  // volume is more than doubled bridges the crack: no sound material gets there.
-  // To find the gap, we divide each cell of the grid into squares a fifth of a
-  // cell wide, which is more than the distance of points where the crack runs.
-  // In the neighbourhood of the corner, all squares have points at first: we
-  // count in how many there still are any. A square is part of one cell, and
-  // hence known to one process only.
+  // volume is more than doubled bridges the crack: no sound material gets
+  // there. To find the gap, we divide each cell of the grid into squares a
+  // fifth of a cell wide, which is more than the distance of points where the
+  // crack runs. In the neighbourhood of the corner, all squares have points at
+  // first: we count in how many there still are any. A square is part of one
+  // cell, and hence known to one process only.
   void
   CrackObserver::observe(const unsigned int n, const double load)
   {
@@ -117,8 +119,7 @@ namespace Step6
         const MaterialPoint<2> point(copy.get_properties());
         const Point<2>        &x = particle.get_location();
         if (point.damage() > broken)
-          length =
-            std::max(length, corner.distance(x - point.displacement()));
+          length = std::max(length, corner.distance(x - point.displacement()));
         if (determinant(point.deformation_gradient()) > 2.)
           ++n_bridging;
         const std::array<int, 2> place = {{square(x[0]), square(x[1])}};
@@ -128,8 +129,8 @@ namespace Step6
       }
 
     const MPI_Comm communicator = MPI_COMM_WORLD;
-    length     = Utilities::MPI::max(length, communicator);
-    n_bridging = Utilities::MPI::sum(n_bridging, communicator);
+    length                      = Utilities::MPI::max(length, communicator);
+    n_bridging                  = Utilities::MPI::sum(n_bridging, communicator);
     const unsigned int n_occupied =
       Utilities::MPI::sum(static_cast<unsigned int>(occupied.size()),
                           communicator);
@@ -161,13 +162,16 @@ namespace Step6
   void
   run(Parameters &parameters, const bool discrete)
   {
-    const std::string folder = parameters.output.directory;
+    const std::string folder    = parameters.output.directory;
     parameters.partition.enable = discrete;
     parameters.output.directory =
       folder + (discrete ? "/PF-MPM-DFG" : "/PF-MPM");
 
-    const bool    is_first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    Simulation<2> simulation(parameters, MPI_COMM_WORLD, Overwrite::yes, &std::cout);
+    const bool is_first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    Simulation<2> simulation(parameters,
+                             MPI_COMM_WORLD,
+                             Overwrite::yes,
+                             &std::cout);
     CrackObserver observer(simulation, parameters);
     simulation.signals.step_done.connect(
       [&](const unsigned int n,

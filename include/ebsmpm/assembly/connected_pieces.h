@@ -69,12 +69,12 @@ namespace EBSMPM
      *   which the groups were made
      */
     void
-    reinit(const CellPoints<dim>             &points,
-           const std::vector<double>         &volumes,
-           const PointGroups<dim>            &groups,
-           const CellPoints<dim>             &boundary_points,
-           const BoundaryState<dim>          &boundary,
-           const PointGroups<dim>            &boundary_groups,
+    reinit(const CellPoints<dim>     &points,
+           const std::vector<double> &volumes,
+           const PointGroups<dim>    &groups,
+           const CellPoints<dim>     &boundary_points,
+           const BoundaryState<dim>  &boundary,
+           const PointGroups<dim>    &boundary_groups,
            const std::shared_ptr<const Utilities::MPI::Partitioner> &functions);
 
     /** Forget all pieces: none is free. */
@@ -97,20 +97,19 @@ namespace EBSMPM
     /** Sums over the points of a piece, in the order of messages. */
     struct Moments
     {
-      double              volume = 0.;
-      Tensor<1, dim>      first;
-      double              second = 0.;
+      double         volume = 0.;
+      Tensor<1, dim> first;
+      double         second = 0.;
     };
-
-    static constexpr unsigned int n_motions = dim * (dim + 1) / 2;
 
     /**
      * Give each function the smallest index of any function that it is
      * connected with.
      */
     static std::vector<double>
-    connect(const std::vector<const PointGroups<dim> *>      &all_groups,
-            const std::shared_ptr<const Utilities::MPI::Partitioner> &functions);
+    connect(
+      const std::vector<const PointGroups<dim> *>              &all_groups,
+      const std::shared_ptr<const Utilities::MPI::Partitioner> &functions);
 
     /** Return the number of piece that each group is in. */
     static std::vector<unsigned int>

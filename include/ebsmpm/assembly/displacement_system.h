@@ -95,7 +95,7 @@ namespace EBSMPM
      * @param penalty the factor $\beta$, stress per length
      */
     DisplacementSystem(const Material<dim> &material,
-                       const Degradation &  degradation,
+                       const Degradation   &degradation,
                        const double         penalty);
 
     /**
@@ -109,12 +109,12 @@ namespace EBSMPM
      *   PointGroups; may be empty
      */
     bool
-    reinit(const CellPoints<dim> &          points,
-           const CellPoints<dim> &          boundary_points,
-           const SplineSpace<dim> &         space,
+    reinit(const CellPoints<dim>           &points,
+           const CellPoints<dim>           &boundary_points,
+           const SplineSpace<dim>          &space,
            const AffineConstraints<double> &constraints,
-           const std::vector<Pattern> &     patterns,
-           const std::vector<Pattern> &     boundary_patterns);
+           const std::vector<Pattern>      &patterns,
+           const std::vector<Pattern>      &boundary_patterns);
 
     /**
      * Find the pieces that the body has been cut into, and let those that are
@@ -153,7 +153,7 @@ namespace EBSMPM
     void
     hold_branches(const MaterialState<dim> &state,
                   const BoundaryState<dim> &boundary,
-                  const LA::FieldVector &   increment);
+                  const LA::FieldVector    &increment);
 
     /** Let the branches follow the state again. reinit() does that as well. */
     void
@@ -163,15 +163,15 @@ namespace EBSMPM
     void
     assemble_residual(const MaterialState<dim> &state,
                       const BoundaryState<dim> &boundary,
-                      const LA::FieldVector &   increment,
-                      LA::FieldVector &         residual) const;
+                      const LA::FieldVector    &increment,
+                      LA::FieldVector          &residual) const;
 
     /** Compute the residual and the tangent matrix. */
     void
     assemble_tangent(const MaterialState<dim> &state,
                      const BoundaryState<dim> &boundary,
-                     const LA::FieldVector &   increment,
-                     LA::FieldVector &         residual);
+                     const LA::FieldVector    &increment,
+                     LA::FieldVector          &residual);
 
     /**
      * The same without the derivative of $\mathbf A$ in the last term, which is
@@ -183,17 +183,17 @@ namespace EBSMPM
     void
     assemble_predictor(const MaterialState<dim> &state,
                        const BoundaryState<dim> &boundary,
-                       const LA::FieldVector &   increment,
-                       LA::FieldVector &         residual);
+                       const LA::FieldVector    &increment,
+                       LA::FieldVector          &residual);
 
     /**
      * Subtract the virtual work of a body force per reference volume, given as
      * a function of the position at the start of the step.
      */
     void
-    add_body_force(const MaterialState<dim> &         state,
-                   const TensorFunction<1, dim> &     force,
-                   LA::FieldVector &                  residual) const;
+    add_body_force(const MaterialState<dim>     &state,
+                   const TensorFunction<1, dim> &force,
+                   LA::FieldVector              &residual) const;
 
     /** The tangent, or predictor, that was assembled last. */
     const LA::SparseMatrix &
@@ -204,14 +204,14 @@ namespace EBSMPM
      */
     void
     driving_energy(const MaterialState<dim> &state,
-                   const LA::FieldVector &   increment,
-                   std::vector<double> &     psi_degraded) const;
+                   const LA::FieldVector    &increment,
+                   std::vector<double>      &psi_degraded) const;
 
     /** Compute the energies of the body. Collective. */
     Energies
     energies(const MaterialState<dim> &state,
              const BoundaryState<dim> &boundary,
-             const LA::FieldVector &   increment) const;
+             const LA::FieldVector    &increment) const;
 
     /**
      * Compute the resultants of the consistent flux, $\sum_b A_0(\mathbf
@@ -236,12 +236,12 @@ namespace EBSMPM
     /** Compute what the material points are to become. */
     Update
     update_points(const MaterialState<dim> &state,
-                  const LA::FieldVector &   increment) const;
+                  const LA::FieldVector    &increment) const;
 
     /** Compute what the boundary points are to become. */
     Update
     update_points(const BoundaryState<dim> &boundary,
-                  const LA::FieldVector &   increment) const;
+                  const LA::FieldVector    &increment) const;
 
     /**
      * The shear driving the damage at boundary points, $\mathbf w\cdot\mathbf
@@ -249,8 +249,8 @@ namespace EBSMPM
      */
     void
     boundary_driving(const BoundaryState<dim> &boundary,
-                     const LA::FieldVector &   increment,
-                     std::vector<double> &     driving) const;
+                     const LA::FieldVector    &increment,
+                     std::vector<double>      &driving) const;
 
     /** The distribution of the unknowns. */
     const std::shared_ptr<const Utilities::MPI::Partitioner> &
@@ -322,11 +322,11 @@ namespace EBSMPM
              const Visitor                     &visit) const;
 
     const Material<dim> &material;
-    const Degradation &  degradation;
+    const Degradation   &degradation;
     const double         beta;
 
-    const CellPoints<dim> * points          = nullptr;
-    const CellPoints<dim> * boundary_points = nullptr;
+    const CellPoints<dim>  *points          = nullptr;
+    const CellPoints<dim>  *boundary_points = nullptr;
     const SplineSpace<dim> *spline_space    = nullptr;
 
     /** The branches of the points; empty unless they are held. */

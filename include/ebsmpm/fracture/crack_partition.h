@@ -154,7 +154,7 @@ namespace EBSMPM
      * same points: it tells which functions exist.
      */
     CrackPartition(const SplineSpace<dim> &space,
-                   const AdditionalData &  data = AdditionalData());
+                   const AdditionalData   &data = AdditionalData());
 
     /**
      * Determine the partition anew. Return whether any pattern on any process
@@ -167,12 +167,12 @@ namespace EBSMPM
      *   frozen, and the largest damage
      */
     bool
-    update(const CellPoints<dim> &    points,
-           const CellPoints<dim> &    boundary_points,
+    update(const CellPoints<dim>     &points,
+           const CellPoints<dim>     &boundary_points,
            const std::vector<double> &volumes,
            const std::vector<double> &damage,
-           CrackLabels<dim> &         labels,
-           CrackLabels<dim> &         boundary_labels);
+           CrackLabels<dim>          &labels,
+           CrackLabels<dim>          &boundary_labels);
 
     /** Which functions the material points read as twins. */
     const std::vector<Pattern> &
@@ -237,9 +237,9 @@ namespace EBSMPM
 
     /** Find the cells that take part. */
     void
-    select_cells(const CellPoints<dim> &    points,
+    select_cells(const CellPoints<dim>     &points,
                  const std::vector<double> &damage,
-                 const CrackLabels<dim> &   labels);
+                 const CrackLabels<dim>    &labels);
 
     /** Step 3, for points that are not settled. */
     void
@@ -247,11 +247,11 @@ namespace EBSMPM
 
     /** Steps 4 to 6; they fill #table. */
     void
-    find_sides(const CellPoints<dim> &    points,
+    find_sides(const CellPoints<dim>     &points,
                const std::vector<double> &volumes,
-               const CrackLabels<dim> &   labels);
+               const CrackLabels<dim>    &labels);
     void
-    find_separable(const CellPoints<dim> & points,
+    find_separable(const CellPoints<dim>  &points,
                    const CrackLabels<dim> &labels);
     void
     close_gaps();
@@ -259,8 +259,8 @@ namespace EBSMPM
     /** Step 7, and freezing; returns whether a pattern changed. */
     bool
     make_patterns(const CellPoints<dim> &points,
-                  CrackLabels<dim> &     labels,
-                  std::vector<Pattern> & patterns) const;
+                  CrackLabels<dim>      &labels,
+                  std::vector<Pattern>  &patterns) const;
 
     const SplineSpace<dim> *spline_space;
     const AdditionalData    data;

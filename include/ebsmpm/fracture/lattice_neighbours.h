@@ -104,7 +104,7 @@ namespace EBSMPM
   template <int dim, typename Value>
   void
   add_shared_functions(
-    const SplineSpace<dim> &space,
+    const SplineSpace<dim>                                            &space,
     std::unordered_map<FunctionKey<dim>, Value, FunctionKeyHash<dim>> &table)
   {
     if (Utilities::MPI::n_mpi_processes(space.communicator()) == 1)

@@ -11,7 +11,9 @@
 #define ebsmpm_solvers_parameters_h
 
 #include <ebsmpm/base/config.h>
+
 #include <ebsmpm/lac/linear_solver.h>
+
 #include <ebsmpm/solvers/staggered_step.h>
 
 #include <deal.II/base/parameter_acceptor.h>

@@ -11,17 +11,21 @@
 #define ebsmpm_solvers_simulation_h
 
 #include <ebsmpm/base/config.h>
+
 #include <ebsmpm/materials/degradation.h>
 #include <ebsmpm/materials/material.h>
-#include <ebsmpm/output/files.h>
-#include <ebsmpm/output/history.h>
-#include <ebsmpm/output/vtu_series.h>
+
 #include <ebsmpm/particles/boundary_points.h>
 #include <ebsmpm/particles/material_points.h>
 #include <ebsmpm/particles/shape.h>
+
 #include <ebsmpm/solvers/dirichlet_conditions.h>
 #include <ebsmpm/solvers/parameters.h>
 #include <ebsmpm/solvers/staggered_step.h>
+
+#include <ebsmpm/output/files.h>
+#include <ebsmpm/output/history.h>
+#include <ebsmpm/output/vtu_series.h>
 
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/timer.h>
@@ -68,7 +72,7 @@ namespace EBSMPM
     Simulation(const Parameters &parameters,
                const MPI_Comm    communicator,
                const Overwrite   overwrite,
-               std::ostream *    screen);
+               std::ostream     *screen);
 
     /** What others may do during a run. */
     struct Signals
@@ -114,9 +118,9 @@ namespace EBSMPM
     void
     write_header();
     void
-    write_step(const unsigned int                                n_step,
-               const double                                      load,
-               const typename StaggeredStep<dim>::Report &       report);
+    write_step(const unsigned int                         n_step,
+               const double                               load,
+               const typename StaggeredStep<dim>::Report &report);
     void
     write_fields(const unsigned int n_step, const double load);
 
@@ -135,11 +139,11 @@ namespace EBSMPM
     MaterialPoints<dim>                       points;
     BoundaryPoints<dim>                       boundary_points;
 
-    std::unique_ptr<Material<dim>>       material;
-    const Degradation                    degradation;
-    const DirichletConditions<dim>       conditions;
-    double                               penalty = 0.;
-    std::unique_ptr<StaggeredStep<dim>>  step;
+    std::unique_ptr<Material<dim>>      material;
+    const Degradation                   degradation;
+    const DirichletConditions<dim>      conditions;
+    double                              penalty = 0.;
+    std::unique_ptr<StaggeredStep<dim>> step;
 
     std::unique_ptr<HistoryWriter> history;
     std::unique_ptr<VTUSeries>     point_series;

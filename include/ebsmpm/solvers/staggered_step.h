@@ -10,18 +10,23 @@
 #ifndef ebsmpm_solvers_staggered_step_h
 #define ebsmpm_solvers_staggered_step_h
 
+#include <ebsmpm/lac/linear_solver.h>
+
+#include <ebsmpm/splines/extension.h>
+#include <ebsmpm/splines/spline_space.h>
+
+#include <ebsmpm/particles/boundary_points.h>
+#include <ebsmpm/particles/material_points.h>
+
+#include <ebsmpm/fracture/crack_opening.h>
+#include <ebsmpm/fracture/crack_partition.h>
+
 #include <ebsmpm/assembly/damage_system.h>
 #include <ebsmpm/assembly/displacement_system.h>
 #include <ebsmpm/assembly/field_snapshot.h>
-#include <ebsmpm/fracture/crack_opening.h>
-#include <ebsmpm/fracture/crack_partition.h>
-#include <ebsmpm/lac/linear_solver.h>
-#include <ebsmpm/particles/boundary_points.h>
-#include <ebsmpm/particles/material_points.h>
+
 #include <ebsmpm/solvers/dirichlet_conditions.h>
 #include <ebsmpm/solvers/newton_solver.h>
-#include <ebsmpm/splines/extension.h>
-#include <ebsmpm/splines/spline_space.h>
 
 #include <deal.II/base/timer.h>
 
@@ -162,15 +167,15 @@ namespace EBSMPM
      * @param data the parameters
      * @param timer may be null
      */
-    StaggeredStep(MaterialPoints<dim> &points,
-                  BoundaryPoints<dim> &boundary_points,
-                  const Material<dim> &material,
-                  const Degradation &  degradation,
-                  const double         fracture_energy,
-                  const double         length_scale,
-                  const double         penalty,
+    StaggeredStep(MaterialPoints<dim>  &points,
+                  BoundaryPoints<dim>  &boundary_points,
+                  const Material<dim>  &material,
+                  const Degradation    &degradation,
+                  const double          fracture_energy,
+                  const double          length_scale,
+                  const double          penalty,
                   const AdditionalData &data,
-                  TimerOutput *         timer = nullptr);
+                  TimerOutput          *timer = nullptr);
 
     /**
      * Solve for the state under the load @p load. Starts from the accepted
@@ -222,9 +227,10 @@ namespace EBSMPM
     increment() const;
 
     /**
-     * The coefficients of the damage that a cell sees, as GridWriter wants them;
-     * nothing for cells without points. To be called between accept() and the
-     * next solve(). Not collective: processes have different numbers of cells.
+     * The coefficients of the damage that a cell sees, as GridWriter wants
+     * them; nothing for cells without points. To be called between accept() and
+     * the next solve(). Not collective: processes have different numbers of
+     * cells.
      */
     void
     cell_damage(const typename Triangulation<dim>::active_cell_iterator &cell,
@@ -238,10 +244,6 @@ namespace EBSMPM
     /** Build the space of the displacement for the current partition. */
     void
     build_displacement_space();
-
-    /** Rigid motions, for algebraic multigrid. */
-    void
-    set_near_null_space();
 
     /** One solve for the damage; returns the largest change at a point. */
     double
@@ -259,12 +261,12 @@ namespace EBSMPM
     void
     check_stability();
 
-    MaterialPoints<dim> &     material_points;
-    BoundaryPoints<dim> &     boundary_material_points;
-    const Degradation &       degradation;
-    const AdditionalData      data;
+    MaterialPoints<dim>         &material_points;
+    BoundaryPoints<dim>         &boundary_material_points;
+    const Degradation           &degradation;
+    const AdditionalData         data;
     std::unique_ptr<TimerOutput> own_timer;
-    TimerOutput *             timer;
+    TimerOutput                 *timer;
 
     CellPoints<dim>     points;
     CellPoints<dim>     boundary_points;
@@ -288,13 +290,13 @@ namespace EBSMPM
     LinearSolver            u_solver;
     LinearSolver            d_solver;
 
-    LA::FieldVector u_increment;
-    LA::FieldVector d_field;
+    LA::FieldVector    u_increment;
+    LA::FieldVector    d_field;
     FieldSnapshot<dim> last_increment;
-    bool            space_is_current = false;
-    double          largest_force    = 0.;
-    double          first_residual   = 0.;
-    double          force_scale      = 0.;
+    bool               space_is_current = false;
+    double             largest_force    = 0.;
+    double             first_residual   = 0.;
+    double             force_scale      = 0.;
 
     std::vector<types::boundary_id>              boundary_ids;
     std::map<types::boundary_id, Tensor<1, dim>> all_reactions;

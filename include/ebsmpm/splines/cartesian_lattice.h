@@ -54,8 +54,7 @@ namespace EBSMPM
 
     /** Return the lattice index of a cell among the cells of its level. */
     Index
-    cell_index(
-      const typename Triangulation<dim>::cell_iterator &cell) const;
+    cell_index(const typename Triangulation<dim>::cell_iterator &cell) const;
 
     /** Return the edge lengths of the cells of a level. */
     Tensor<1, dim>
@@ -75,7 +74,7 @@ namespace EBSMPM
      * spite of roundoff in @p x.
      */
     FunctionKey<dim>
-    nearest_function(const Point<dim> & x,
+    nearest_function(const Point<dim>  &x,
                      const unsigned int level,
                      const unsigned int degree) const;
 

@@ -104,8 +104,7 @@ namespace EBSMPM
       bool shared = false;
     };
 
-    using SupportTable =
-      std::unordered_map<Key, Support, FunctionKeyHash<dim>>;
+    using SupportTable = std::unordered_map<Key, Support, FunctionKeyHash<dim>>;
     using FunctionTable =
       std::unordered_map<Key, Function, FunctionKeyHash<dim>>;
 
