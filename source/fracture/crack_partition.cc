@@ -43,6 +43,12 @@ namespace EBSMPM
       constexpr double junction_ratio    = 0.5;
       constexpr double junction_variance = 1. / 16.;
 
+      /**
+       * Part of the material with settled sides that tells that there was a
+       * crack before: lips that are wide open look like a junction.
+       */
+      constexpr double least_settled = 0.1;
+
       /** Reach of the closure, in cells. */
       constexpr int closure_reach = 3;
     } // namespace CrackPartitionImplementation
@@ -207,7 +213,7 @@ namespace EBSMPM
           continue;
         function.at_junction = shape.variance_ratio > junction_ratio &&
                                shape.least_variance > junction_variance &&
-                               sum.settled_volume < 0.5 * sum.volume;
+                               sum.settled_volume < least_settled * sum.volume;
 
         // As much material on either side: go to the fixed one.
         // (Points next to a slit have sides before there is a ridge.)

@@ -111,11 +111,10 @@ CASES["coarse-phi-0.001-accept"] = [
     {"Extension/Threshold": "0.001"},
     ACCEPT,
 ]
-CASES["dense-0.001-accept"] = [
+CASES["dense-0.001-beta-1000"] = [
     FINE,
     DENSE,
-    {"Extension/Threshold": "0.001"},
-    ACCEPT,
+    {"Extension/Threshold": "0.001", "Nitsche/Penalty factor": "1000"},
 ]
 CASES["concrete"] = [CONCRETE]
 CASES["concrete-diffusive"] = [CONCRETE, DIFFUSIVE]
