@@ -366,9 +366,11 @@ namespace EBSMPM
                   fraction);
     add_parameter("Ridge radius",
                   ridge_radius,
-                  "Radius, in cells, in which the ridge's shape is determined.",
+                  "Radius, in cells, in which the ridge's shape is determined. "
+                  "Zero for one and a half times the length scale, but four at "
+                  "least.",
                   prm,
-                  Patterns::Integer(2, 10));
+                  Patterns::Integer(0, 20));
     add_parameter("Maximum passes",
                   maximum_passes,
                   "Staggered passes after which the partition of a step stays "

@@ -19,6 +19,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -240,11 +241,19 @@ namespace EBSMPM
     // without the transition, only what it labels at the start is separable.
     data.partition            = partition.enable || notch.type == "slit";
     data.max_partition_passes = partition.maximum_passes;
-    data.partition_data       = typename CrackPartition<dim>::AdditionalData(
-      partition.damage_threshold,
-      partition.closure_damage,
-      partition.frozen_ratio,
-      partition.ridge_radius);
+    // The ball has to be wider than the crest, which is as wide as the length
+    // scale says.
+    const unsigned int radius =
+      partition.ridge_radius > 0 ?
+        partition.ridge_radius :
+        std::max(4U,
+                 static_cast<unsigned int>(
+                   std::ceil(1.5 * length_scale() / cell_size() - 1e-6)));
+    data.partition_data =
+      typename CrackPartition<dim>::AdditionalData(partition.damage_threshold,
+                                                   partition.closure_damage,
+                                                   partition.frozen_ratio,
+                                                   radius);
     data.partition_data.grow    = partition.enable;
     data.newton                 = NewtonSolver::AdditionalData(
       newton.tolerance, newton.maximum_iterations, newton.maximum_bisections);

@@ -56,6 +56,8 @@ REFINED = {
     "Body/Regions": "6: box(0,220, 290,450)",
 }
 
+HALF_STEPS = {"Loading/Increments": "8: 0.5, 9.5: 0.1"}
+
 # The specimen turned by 20 degrees about its lower left corner.
 ANGLE = 20
 C, S = (f(math.radians(ANGLE)) for f in (math.cos, math.sin))
@@ -86,7 +88,9 @@ CASES = {
     "dense-0.001": [FINE, DENSE, {"Extension/Threshold": "0.001"}],
     "shifted": [FINE, SHIFTED],
     "rotated": [FINE, ROTATED],
-    "refined": [FINE, REFINED],
+    # The same increments for both: at h = 2.5 mm, a step of 1 mm is cut back.
+    "fine-0.5": [FINE, HALF_STEPS],
+    "refined-0.5": [FINE, REFINED, HALF_STEPS],
     "coarse": [COARSE],
     "coarse-diffusive": [COARSE, DIFFUSIVE],
     "coarse-iterated": [COARSE, ITERATED],
@@ -126,7 +130,7 @@ def turn(vectors, angle):
     return vectors @ np.array([[c, s], [-s, c]])
 
 
-def path(directory, distances=(50, 100)):
+def path(directory, distances=(25, 50, 100)):
     """The height of the crack at distances to the left of the corner."""
     names = sorted(glob.glob(os.path.join(directory, "points_*.pvtu")))
     positions, fields = plot_fields.read(names[-1])
@@ -162,7 +166,7 @@ def describe(directory):
     return (
         f"{peak['force']:7.3f}  {peak['displacement']:5.2f}"
         f"  {force_at(4)}  {force_at(8)}  {force_at(10)}  {force_at(12)}"
-        f"  {force_at(15)}  {heights[0]}  {heights[1]}"
+        f"  {force_at(15)}  {'  '.join(heights)}"
         f"  {max(row['largest_extension_weight'] for row in rows):7.0f}"
         f"  {sum(row['passes'] for row in rows):6.0f}"
         f"  {sum(row['newton_iterations'] for row in rows):6.0f}"
@@ -175,7 +179,7 @@ if __name__ == "__main__":
         __doc__,
         CASES,
         f"{'peak':>7}  {'at':>5}  {'F(4)':>7}  {'F(8)':>7}  {'F(10)':>7}"
-        f"  {'F(12)':>7}  {'F(15)':>7}  {'y50':>5}  {'y100':>5}"
+        f"  {'F(12)':>7}  {'F(15)':>7}  {'y25':>5}  {'y50':>5}  {'y100':>5}"
         f"  {'weight':>7}  passes  newton  time/s",
         describe,
     )

@@ -176,7 +176,7 @@ namespace EBSMPM
       double       damage_threshold = 0.9;
       double       closure_damage   = 0.5;
       double       frozen_ratio     = 0.2;
-      unsigned int ridge_radius     = 4;
+      unsigned int ridge_radius     = 0;
       unsigned int maximum_passes   = 50;
     } partition;
 
