@@ -306,7 +306,7 @@ cat << END
   $results/
     load-displacement.png          the curves of both variants
     damage.png                     the damage at the end
-    opened-crack.png               the same, displacements magnified $warp times
+    opened-crack.png               the same, at the displacements times $warp
     opening-by-damage.png          the discrete crack as it opens
     opening-by-side.png            the same, coloured by the sides of the points
     <variant>/history.csv          load, energies, crack length, step by step

@@ -44,10 +44,12 @@ namespace EBSMPM
       constexpr double junction_variance = 1. / 16.;
 
       /**
-       * Part of the material with settled sides that tells that there was a
-       * crack before: lips that are wide open look like a junction.
+       * The lips of a crack that is wide open look like a junction. It is none
+       * if more than this part of the material has settled sides, or if less
+       * than that part of the support is filled.
        */
-      constexpr double least_settled = 0.1;
+      constexpr double most_settled = 0.1;
+      constexpr double least_filled = 0.8;
 
       /** Reach of the closure, in cells. */
       constexpr int closure_reach = 3;
@@ -211,9 +213,13 @@ namespace EBSMPM
         function.owner                = shape.owner;
         if (sum.volume == 0.)
           continue;
-        function.at_junction = shape.variance_ratio > junction_ratio &&
-                               shape.least_variance > junction_variance &&
-                               sum.settled_volume < least_settled * sum.volume;
+        const double h =
+          spline_space->lattice().cell_extents(entry.first.level)[0];
+        function.at_junction =
+          shape.variance_ratio > junction_ratio &&
+          shape.least_variance > junction_variance &&
+          sum.settled_volume < most_settled * sum.volume &&
+          sum.volume > least_filled * Utilities::fixed_power<dim>(h);
 
         // As much material on either side: go to the fixed one.
         // (Points next to a slit have sides before there is a ridge.)

@@ -93,9 +93,9 @@ namespace EBSMPM
    *    closes smoothly at the tip. It stays whole in spite of that where the
    *    ridge has arms in all directions, i.e., the ratio of variances is above
    *    one half and the smaller one above 1/16 of the square of the radius:
-   *    where cracks meet, two sides are not enough (n_junctions()). If
-   *    some of the material around has settled sides, there was a crack before, and
-   *    it remains one: lips that are wide open look the same.
+   *    where cracks meet, two sides are not enough (n_junctions()). If some of
+   *    the material around has settled sides, or there is a gap in it, there was
+   *    a crack before, and it remains one: open lips look the same.
    * 6. Closure: a function on a ridge with $d>0.5$ between two separable ones,
    *    or between one and a free boundary, within three cells, is separable as
    *    well. Single functions left over would carry load for ever.
