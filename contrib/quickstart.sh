@@ -31,11 +31,8 @@ quick_overrides=("Output/Interval = 30")
 paper_progress="0 0  0.0048 0.07  0.00504 0.10  0.00516 0.22  0.00528 0.40  0.0054 0.63  0.00552 0.96  0.0060 1"
 quick_progress="0 0  0.0048 0.07  0.00504 0.10  0.00516 0.22  0.00528 0.40  0.0054 0.63  0.00552 0.96  0.0060 1"
 
-# How many times the displacements are magnified in the picture of the crack, and
-# the component of the side vectors that is drawn, which changes its sign across
-# the crack.
+# How many times the displacements are magnified in the picture of the crack.
 warp=20
-side_component=1
 fields_arguments=()
 
 # The L-shaped panel, section 4.(2), with --panel; the part of it where the crack
@@ -292,14 +289,11 @@ opening=()
 for k in 1 2 3 4; do
   opening+=("${all_points[$(((n * k + 3) / 4 - 1))]}")
 done
-for field in damage side; do
-  component=()
-  if [ $field = side ]; then
-    component=(--component "$side_component")
-  fi
-  plot_fields "$results/opening-by-$field.png" "${opening[@]}" \
-    --field $field ${component[@]+"${component[@]}"} --warp "$warp"
-done
+plot_fields "$results/opening-by-damage.png" "${opening[@]}" \
+  --field damage --warp "$warp"
+# The component along y of the side vectors has another sign on either side.
+plot_fields "$results/opening-by-side.png" "${opening[@]}" \
+  --field side --component 1 --warp "$warp"
 
 say "Done in $(minutes $SECONDS) minutes, with $resolution_text"
 cat << END

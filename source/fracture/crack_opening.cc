@@ -98,34 +98,47 @@ namespace EBSMPM
     const FunctionDirectory<dim, Sides<dim>> directory(space.communicator());
     typename FunctionDirectory<dim, Sides<dim>>::Table table;
     for (const auto &cell : points.cells())
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          const auto key = space.cell_function(cell.index, cell.level, i);
-          if (partition.side_of(key).norm_square() == 0.)
-            continue;
-          const double h = space.lattice().cell_extents(cell.level)[0];
-          // Relative to the function, for the sake of roundoff.
-          const Point<dim> origin =
-            space.lattice().greville_point(key, space.degree());
-          Sides<dim> &sides = table[key];
-          for (unsigned int q = cell.begin; q < cell.end; ++q)
-            {
-              kernel.values(points.unit_point(q), B.data());
-              const double w =
-                B[i] * volumes[q] / Utilities::fixed_power<dim>(h);
-              const unsigned int   other = (partition.patterns()[q] >> i) & 1;
-              const Tensor<1, dim> start = points.location(q) - origin;
-              Side<dim>           &side  = sides[other];
-              side.volume += w;
-              for (unsigned int d = 0; d < dim; ++d)
+      {
+        // The separable functions of the cell, and where they are.
+        std::array<Sides<dim> *, BSplineKernel<dim>::max_n_functions> sides{};
+        std::array<Point<dim>, BSplineKernel<dim>::max_n_functions>   origins;
+        bool any = false;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const auto key = space.cell_function(cell.index, cell.level, i);
+            if (partition.side_of(key).norm_square() == 0.)
+              continue;
+            sides[i]   = &table[key];
+            origins[i] = space.lattice().greville_point(key, space.degree());
+            any        = true;
+          }
+        if (!any)
+          continue;
+
+        const double h = space.lattice().cell_extents(cell.level)[0];
+        for (unsigned int q = cell.begin; q < cell.end; ++q)
+          {
+            kernel.values(points.unit_point(q), B.data());
+            for (unsigned int i = 0; i < n; ++i)
+              if (sides[i] != nullptr)
                 {
-                  side.x[d] += w * (start[d] + increments[q][d]);
-                  side.X[d] += w * (start[d] - displacements[q][d]);
-                  for (unsigned int e = 0; e < dim; ++e)
-                    side.F[dim * d + e] += w * F[q][d][e];
+                  // Relative to the function, for the sake of roundoff.
+                  const Tensor<1, dim> start = points.location(q) - origins[i];
+                  const double         w =
+                    B[i] * volumes[q] / Utilities::fixed_power<dim>(h);
+                  const unsigned int other = (partition.patterns()[q] >> i) & 1;
+                  Side<dim>         &side  = (*sides[i])[other];
+                  side.volume += w;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    {
+                      side.x[d] += w * (start[d] + increments[q][d]);
+                      side.X[d] += w * (start[d] - displacements[q][d]);
+                      for (unsigned int e = 0; e < dim; ++e)
+                        side.F[dim * d + e] += w * F[q][d][e];
+                    }
                 }
-            }
-        }
+          }
+      }
     table = directory.reduce(table, [](Sides<dim> a, const Sides<dim> &b) {
       a[0] += b[0];
       a[1] += b[1];

@@ -92,13 +92,13 @@ namespace Step6
   // in its own cells only, hence the sums over all of them.
   //
   // The tip is the point that is farthest from the corner among those with more
-  // damage than what makes a crack discrete. A point whose
-  // volume is more than doubled bridges the crack: no sound material gets
-  // there. To find the gap, we divide each cell of the grid into squares a
-  // fifth of a cell wide, which is more than the distance of points where the
-  // crack runs. In the neighbourhood of the corner, all squares have points at
-  // first: we count in how many there still are any. A square is part of one
-  // cell, and hence known to one process only.
+  // damage than what makes a crack discrete. A point whose volume is more than
+  // doubled bridges the crack: no sound material gets there. To find the gap,
+  // we divide each cell of the grid into squares a fifth of a cell wide, which
+  // is more than the distance of points where the crack runs. In the
+  // neighbourhood of the corner, all squares have points at first: we count in
+  // how many there still are any. A square is part of one cell, and hence known
+  // to one process only.
   void
   CrackObserver::observe(const unsigned int n, const double load)
   {

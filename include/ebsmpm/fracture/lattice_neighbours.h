@@ -47,15 +47,41 @@ namespace EBSMPM
 
 
   /**
-   * Return what is known about all functions within @p radius lattice steps of
-   * some others: by this process, or by the owners of the functions.
-   * Collective.
+   * Return what the owners know about the functions @p wanted, as far as they
+   * know anything. Collective.
    *
    * @param table what this process knows; <tt>Value::owner</tt> is the rank
    *   whose entry others get
+   * @param wanted the functions to ask about
+   * @param communicator of the processes
+   */
+  template <int dim, typename Value>
+  typename FunctionDirectory<dim, Value>::Table
+  ask_owners(
+    const std::unordered_map<FunctionKey<dim>, Value, FunctionKeyHash<dim>>
+                                        &table,
+    const std::vector<FunctionKey<dim>> &wanted,
+    const MPI_Comm                      &communicator)
+  {
+    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
+    FunctionDirectory<dim, Value> directory(communicator);
+    std::vector<typename FunctionDirectory<dim, Value>::Entry> mine;
+    for (const auto &entry : table)
+      if (entry.second.owner == my_rank)
+        mine.push_back({entry.first, entry.second});
+    directory.publish(mine);
+    return directory.query(wanted);
+  }
+
+
+
+  /**
+   * Return what is known about all functions within @p radius lattice steps of
+   * some others: by this process, or by the owners of the functions.
+   * Collective. See ask_owners() for @p table and @p communicator.
+   *
    * @param centers the functions around which others are wanted
    * @param radius the number of lattice steps
-   * @param communicator of the processes
    */
   template <int dim, typename Value>
   typename FunctionDirectory<dim, Value>::Table
@@ -66,16 +92,6 @@ namespace EBSMPM
     const int                            radius,
     const MPI_Comm                      &communicator)
   {
-    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
-
-    // Publish what we own, and ask for what we do not see ourselves.
-    FunctionDirectory<dim, Value> directory(communicator);
-    std::vector<typename FunctionDirectory<dim, Value>::Entry> mine;
-    for (const auto &entry : table)
-      if (entry.second.owner == my_rank)
-        mine.push_back({entry.first, entry.second});
-    directory.publish(mine);
-
     std::vector<FunctionKey<dim>> wanted;
     for (const auto &center : centers)
       for_each_neighbour(center, radius, [&](const FunctionKey<dim> &key) {
@@ -85,7 +101,7 @@ namespace EBSMPM
     std::sort(wanted.begin(), wanted.end());
     wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
 
-    auto result = directory.query(wanted);
+    auto result = ask_owners(table, wanted, communicator);
     result.insert(table.begin(), table.end());
     return result;
   }
@@ -93,13 +109,12 @@ namespace EBSMPM
 
 
   /**
-   * Add to @p table what other processes know about functions that this process
-   * sees. Only some cells take part in what is known, and those of a process
-   * may be on the other side of its border. Collective.
+   * Add to @p table what the owners know about functions that this process sees
+   * but knows nothing about: only some cells take part in what is known, and
+   * those of a process may be on the other side of its border. Collective. See
+   * ask_owners() for @p table.
    *
    * @param space tells which functions are seen by several processes
-   * @param table what this process knows; <tt>Value::owner</tt> is the rank
-   *   whose entry others get
    */
   template <int dim, typename Value>
   void
@@ -109,22 +124,11 @@ namespace EBSMPM
   {
     if (Utilities::MPI::n_mpi_processes(space.communicator()) == 1)
       return;
-    const unsigned int my_rank =
-      Utilities::MPI::this_mpi_process(space.communicator());
-    FunctionDirectory<dim, Value> directory(space.communicator());
-    std::vector<typename FunctionDirectory<dim, Value>::Entry> mine;
-    std::vector<FunctionKey<dim>>                              wanted;
+    std::vector<FunctionKey<dim>> wanted;
     for (const auto &entry : space.functions())
-      if (entry.second.shared)
-        {
-          const auto found = table.find(entry.first);
-          if (found == table.end())
-            wanted.push_back(entry.first);
-          else if (found->second.owner == my_rank)
-            mine.push_back({entry.first, found->second});
-        }
-    directory.publish(mine);
-    const auto theirs = directory.query(wanted);
+      if (entry.second.shared && table.find(entry.first) == table.end())
+        wanted.push_back(entry.first);
+    const auto theirs = ask_owners(table, wanted, space.communicator());
     table.insert(theirs.begin(), theirs.end());
   }
 } // namespace EBSMPM
