@@ -53,6 +53,10 @@ namespace EBSMPM
             for (unsigned int l = 0; l < dim; ++l)
               local.residual[I][j] -= point.A0 * wT[j][l] * point.G[l * n + I];
 
+        const Tensor<1, dim> &traction = boundary.traction[local.point(k)];
+        for (unsigned int I = 0; I < n; ++I)
+          local.residual[I] -= point.A0 * point.B[I] * traction;
+
         if (task == AssemblyTask::tangent && point.w.norm_square() > 0.)
           add_derivative_of_tangent(point, local);
       }

@@ -165,10 +165,12 @@ namespace EBSMPM
     const auto add = [](Sums a, const Sums &b) {
       a.volume += b.volume;
       a.settled_volume += b.settled_volume;
+      a.filled_volume += b.filled_volume;
       for (unsigned int d = 0; d < dim; ++d)
         {
           a.vector[d] += b.vector[d];
           a.axis[d] += b.axis[d];
+          a.moment[d] += b.moment[d];
         }
       return a;
     };
@@ -183,13 +185,16 @@ namespace EBSMPM
             kernel.values(points.unit_point(q), B.data());
             const Tensor<1, dim> &side = labels.side[q];
             const Tensor<1, dim>  axis = canonical(side);
+            const Point<dim>     &x    = points.location(q);
             for (unsigned int i = 0; i < n; ++i)
               {
                 const double w = B[i] * volumes[q] * side.norm();
                 local[i].volume += w;
                 local[i].settled_volume += labels.frozen[q] ? w : 0.;
+                local[i].filled_volume += B[i] * volumes[q];
                 for (unsigned int d = 0; d < dim; ++d)
                   {
+                    local[i].moment[d] += B[i] * volumes[q] * x[d];
                     local[i].vector[d] += w * side[d];
                     local[i].axis[d] += w * axis[d];
                   }
@@ -211,6 +216,8 @@ namespace EBSMPM
         FunctionData        &function = table[entry.first];
         const Tensor<1, dim> mean     = to_tensor(sum.vector);
         function.owner                = shape.owner;
+        for (unsigned int d = 0; d < dim; ++d)
+          function.centre[d] = sum.moment[d] / sum.filled_volume;
         if (sum.volume == 0.)
           continue;
         const double h =
@@ -249,11 +256,19 @@ namespace EBSMPM
       surroundings(table, centers, ring, spline_space->communicator());
 
     // The damage met in the strip, or, where there is no material in the strip
-    // because the function is outside of the body, in the whole support.
+    // because the function is outside of the body, in the strip around the
+    // centre of its material, or in the whole support.
     struct Met
     {
-      double in_strip   = -1.;
-      double in_support = 0.;
+      double in_strip      = -1.;
+      double around_centre = -1.;
+      double in_support    = 0.;
+    };
+    const auto combine = [](Met a, const Met &b) {
+      a.in_strip      = std::max(a.in_strip, b.in_strip);
+      a.around_centre = std::max(a.around_centre, b.around_centre);
+      a.in_support    = std::max(a.in_support, b.in_support);
+      return a;
     };
     typename FunctionDirectory<dim, Met>::Table ahead;
     const int                                   p = spline_space->degree();
@@ -278,23 +293,25 @@ namespace EBSMPM
             const Point<dim> x =
               spline_space->lattice().greville_point(key,
                                                      spline_space->degree());
-            Met met;
+            const Tensor<1, dim> shift = to_tensor(found->second.centre) - x;
+            Met                  met;
             for (unsigned int q = cell.begin; q < cell.end; ++q)
               {
                 const Tensor<1, dim> offset = points.location(q) - x;
                 const double         along  = offset * m;
                 if (along < -(1. + tie) * h || along > (2. + tie) * h)
                   continue;
-                const double across = (offset - along * m).norm();
-                if (across < strip * h)
-                  met.in_strip = std::max(met.in_strip, labels.peak_damage[q]);
-                if (across < (0.5 * (p + 1) + tie) * h)
-                  met.in_support =
-                    std::max(met.in_support, labels.peak_damage[q]);
+                const Tensor<1, dim> across = offset - along * m;
+                const double         damage = labels.peak_damage[q];
+                if (across.norm() < strip * h)
+                  met.in_strip = std::max(met.in_strip, damage);
+                if ((across - (shift - (shift * m) * m)).norm() < strip * h)
+                  met.around_centre = std::max(met.around_centre, damage);
+                if (across.norm() < (0.5 * (p + 1) + tie) * h)
+                  met.in_support = std::max(met.in_support, damage);
               }
-            Met &total       = ahead[key];
-            total.in_strip   = std::max(total.in_strip, met.in_strip);
-            total.in_support = std::max(total.in_support, met.in_support);
+            Met &total = ahead[key];
+            total      = combine(total, met);
           }
       }
 
@@ -303,18 +320,16 @@ namespace EBSMPM
     for (const auto &entry : table)
       ahead.emplace(entry.first, Met());
     const FunctionDirectory<dim, Met> directory(spline_space->communicator());
-    ahead = directory.reduce(ahead, [](Met a, const Met &b) {
-      a.in_strip   = std::max(a.in_strip, b.in_strip);
-      a.in_support = std::max(a.in_support, b.in_support);
-      return a;
-    });
+    ahead = directory.reduce(ahead, combine);
     const unsigned int my_rank =
       Utilities::MPI::this_mpi_process(spline_space->communicator());
     for (auto &entry : table)
       {
-        const Met &met = ahead.at(entry.first);
-        entry.second.damage_ahead =
-          met.in_strip >= 0. ? met.in_strip : met.in_support;
+        const Met &met            = ahead.at(entry.first);
+        entry.second.damage_ahead = met.in_strip >= 0. ? met.in_strip :
+                                    met.around_centre >= 0. ?
+                                                         met.around_centre :
+                                                         met.in_support;
         const bool broken = entry.second.damage_ahead > data.damage_threshold;
         entry.second.separable = broken && !entry.second.at_junction;
         if (broken && entry.second.at_junction && entry.second.owner == my_rank)
@@ -339,7 +354,8 @@ namespace EBSMPM
                                           closure_reach,
                                           spline_space->communicator());
 
-    // Which of the others exist at all.
+    // Which of the others have material at all. (Boundary points may see
+    // functions that do not.)
     std::vector<Key> unknown;
     for (const auto &key : candidates)
       for_each_neighbour(key, closure_reach, [&](const Key &other) {
@@ -348,7 +364,11 @@ namespace EBSMPM
       });
     std::sort(unknown.begin(), unknown.end());
     unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
-    const auto sound = spline_space->query(unknown);
+    const auto sound    = spline_space->query(unknown);
+    const auto is_sound = [&sound](const Key &key) {
+      const auto found = sound.find(key);
+      return found != sound.end() && found->second.fraction > 0.;
+    };
 
     std::vector<Key> closed;
     for (const auto &key : candidates)
@@ -360,8 +380,16 @@ namespace EBSMPM
         const Point<dim> x =
           spline_space->lattice().greville_point(key, spline_space->degree());
 
-        // What lies along the ridge: separable functions, and the outside.
-        std::vector<Tensor<1, dim>> separable, outside;
+        // What lies along the ridge: separable functions, the outside, and
+        // functions that are intact, or else so far away that nobody knows what
+        // comes after them.
+        std::vector<Tensor<1, dim>> separable, outside, intact;
+        const auto                  is_at_reach = [&key](const Key &other) {
+          int steps = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            steps = std::max(steps, std::abs(other.index[d] - key.index[d]));
+          return steps == closure_reach;
+        };
         for_each_neighbour(key, closure_reach, [&](const Key &other) {
           const Tensor<1, dim> offset =
             spline_space->lattice().greville_point(other,
@@ -377,20 +405,34 @@ namespace EBSMPM
             {
               if (found->second.separable && std::abs(along) < (2. + tie) * h)
                 separable.push_back(across / across.norm());
+              else if (!found->second.separable &&
+                       std::abs(along) < (0.5 + tie) * h &&
+                       (found->second.damage_ahead <= data.closure_damage ||
+                        is_at_reach(other)))
+                intact.push_back(across / across.norm());
             }
-          else if (std::abs(along) < (0.5 + tie) * h &&
-                   sound.find(other) == sound.end())
-            outside.push_back(across / across.norm());
+          else if (std::abs(along) < (0.5 + tie) * h)
+            (is_sound(other) ? intact : outside)
+              .push_back(across / across.norm());
         });
 
+        // The outside counts only where nothing is intact ahead: else, a crack
+        // that runs along a free surface would find it diagonally ahead of its
+        // tip.
+        const auto any_opposite = [](const Tensor<1, dim>              &a,
+                                     const std::vector<Tensor<1, dim>> &list,
+                                     const double cosine) {
+          return std::any_of(list.begin(),
+                             list.end(),
+                             [&](const Tensor<1, dim> &b) {
+                               return a * b < -cosine;
+                             });
+        };
         bool between = false;
         for (const auto &a : separable)
-          {
-            for (const auto &b : separable)
-              between = between || a * b < -0.7;
-            for (const auto &b : outside)
-              between = between || a * b < -0.7;
-          }
+          between =
+            between || any_opposite(a, separable, 0.7) ||
+            (any_opposite(a, outside, 0.7) && !any_opposite(a, intact, 0.3));
         if (between)
           closed.push_back(key);
       }

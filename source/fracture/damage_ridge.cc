@@ -26,6 +26,22 @@ namespace EBSMPM
     {
       /** Part of the local maximum above which the ridge begins. */
       constexpr double ridge_fraction = 0.75;
+
+      /** Smallest variance of a ball, over the square of its radius. */
+      constexpr double least_ball_variance = 1e-3;
+
+
+
+      /** The variance of positions with moments of order 0 to 2. */
+      template <int dim>
+      SymmetricTensor<2, dim>
+      variance(const double                   weight,
+               const Tensor<1, dim>          &first,
+               const SymmetricTensor<2, dim> &second)
+      {
+        const Tensor<1, dim> mean = first / weight;
+        return second / weight - symmetrize(outer_product(mean, mean));
+      }
     } // namespace DamageRidgeImplementation
   }   // namespace internal
 
@@ -253,10 +269,10 @@ namespace EBSMPM
                               const Ball   &ball,
                               FunctionData &function) const
   {
-    // Moments of what rises above the foot of the ridge.
+    // Moments of what rises above the foot of the ridge, and of everything.
     double                  weight = 0.;
-    Tensor<1, dim>          first;
-    SymmetricTensor<2, dim> second;
+    Tensor<1, dim>          first, ball_first;
+    SymmetricTensor<2, dim> second, ball_second;
     for (const auto &member : ball)
       {
         // Squared, so that the crest counts more than the flanks, also where
@@ -264,25 +280,39 @@ namespace EBSMPM
         const double rise =
           std::max(0., member.second - ridge_fraction * function.ridge_damage);
         const double w = rise * rise;
+        const auto   square =
+          symmetrize(outer_product(member.first, member.first));
         weight += w;
         first += w * member.first;
-        second += w * symmetrize(outer_product(member.first, member.first));
+        second += w * square;
+        ball_first += member.first;
+        ball_second += square;
       }
-    const Tensor<1, dim>          mean = first / weight;
-    const SymmetricTensor<2, dim> variance =
-      second / weight - symmetrize(outer_product(mean, mean));
-
-    // Eigenvalues come in descending order.
-    const auto       axes = eigenvectors(variance);
-    const double     next = axes[dim - 2].first;
-    const Point<dim> x =
-      space->lattice().greville_point(center, space->degree());
-    const double least = std::max(axes[dim - 1].first, 0.);
+    const auto   ridge = variance(weight, first, second);
     const double r = radius * space->lattice().cell_extents(center.level)[0];
+
+    // In coordinates in which the variance of the ball is one, the axes are
+    // eigenvectors. Eigenvalues come in descending order.
+    SymmetricTensor<2, dim> scaling;
+    for (const auto &axis :
+         eigenvectors(variance<dim>(ball.size(), ball_first, ball_second)))
+      scaling += 1. /
+                 std::sqrt(std::max(axis.first, least_ball_variance * r * r)) *
+                 symmetrize(outer_product(axis.second, axis.second));
+    const auto axes =
+      eigenvectors(symmetrize(Tensor<2, dim>(scaling) * Tensor<2, dim>(ridge) *
+                              Tensor<2, dim>(scaling)));
+    const double         next  = axes[dim - 2].first;
+    const double         least = std::max(axes[dim - 1].first, 0.);
+    const Tensor<1, dim> n     = scaling * axes[dim - 1].second;
+    const Point<dim>     x =
+      space->lattice().greville_point(center, space->degree());
+
     function.variance_ratio = next > 0. ? least / next : 1.;
-    function.least_variance = least / (r * r);
-    function.normal         = to_array(canonical(axes[dim - 1].second));
-    function.centroid       = to_array(Tensor<1, dim>(x + mean));
+    function.normal         = to_array(canonical(Tensor<1, dim>(n / n.norm())));
+    function.least_variance =
+      std::max(n * ridge * n, 0.) / (n.norm_square() * r * r);
+    function.centroid = to_array(Tensor<1, dim>(x + first / weight));
   }
 
 

@@ -157,6 +157,55 @@ namespace EBSMPM
 
     template <int dim>
     void
+    insert_elements(const std::vector<BoundaryElement<dim>> &elements,
+                    const std::vector<types::boundary_id>   &boundary_ids,
+                    BoundaryPoints<dim>                     &points)
+    {
+      AssertDimension(elements.size(), boundary_ids.size());
+      CellLocator<dim> &locator = points.locator();
+      locator.update();
+      const typename Triangulation<dim>::active_cell_iterator nowhere(
+        points.triangulation().end());
+
+      std::vector<typename BoundaryPoints<dim>::Record> records;
+      std::vector<unsigned int>                         is_placed;
+      for (unsigned int e = 0; e < elements.size(); ++e)
+        {
+          const BoundaryElement<dim> &element = elements[e];
+
+          const auto cell = locator.find_owned(
+            points.search_position(element.midpoint, -element.normal));
+          if (cell != nowhere)
+            records.push_back({element.midpoint,
+                               cell,
+                               element.area,
+                               element.normal,
+                               boundary_ids[e]});
+          is_placed.push_back(cell != nowhere);
+        }
+
+      const MPI_Comm comm = get_mpi_communicator(points.triangulation());
+      if (Utilities::MPI::sum(records.size(), comm) != elements.size())
+        {
+          Utilities::MPI::max(is_placed, comm, is_placed);
+          const unsigned int first =
+            std::find(is_placed.begin(), is_placed.end(), 0u) -
+            is_placed.begin();
+          Assert(first < elements.size(), ExcInternalError());
+          std::ostringstream position;
+          for (unsigned int d = 0; d < dim; ++d)
+            position << (d > 0 ? ", " : "") << elements[first].midpoint[d];
+          AssertThrow(false,
+                      ExcPointOutsideGrid(position.str(),
+                                          locator.describe_grid()));
+        }
+      points.insert(records);
+    }
+
+
+
+    template <int dim>
+    void
     boundary(const Shape<dim>                     &shape,
              const std::vector<BoundarySelection> &selections,
              const double                          spacing,
@@ -169,15 +218,9 @@ namespace EBSMPM
       for (const BoundarySelection &selection : selections)
         conditions.emplace_back(selection.condition, variables);
 
-      CellLocator<dim> &locator = points.locator();
-      locator.update();
-      const typename Triangulation<dim>::active_cell_iterator nowhere(
-        points.triangulation().end());
-
-      std::vector<typename BoundaryPoints<dim>::Record> records;
-      std::vector<Point<dim>>                           midpoints;
-      std::vector<unsigned int>                         is_placed;
-      std::vector<double>                               values(2 * dim);
+      std::vector<BoundaryElement<dim>> selected;
+      std::vector<types::boundary_id>   boundary_ids;
+      std::vector<double>               values(2 * dim);
       for (const BoundaryElement<dim> &element :
            shape.boundary_elements(spacing))
         {
@@ -192,35 +235,10 @@ namespace EBSMPM
             ++s;
           if (s == conditions.size())
             continue;
-
-          const auto cell = locator.find_owned(
-            points.search_position(element.midpoint, -element.normal));
-          if (cell != nowhere)
-            records.push_back({element.midpoint,
-                               cell,
-                               element.area,
-                               element.normal,
-                               selections[s].boundary_id});
-          midpoints.push_back(element.midpoint);
-          is_placed.push_back(cell != nowhere);
+          selected.push_back(element);
+          boundary_ids.push_back(selections[s].boundary_id);
         }
-
-      const MPI_Comm comm = get_mpi_communicator(points.triangulation());
-      if (Utilities::MPI::sum(records.size(), comm) != midpoints.size())
-        {
-          Utilities::MPI::max(is_placed, comm, is_placed);
-          const unsigned int first =
-            std::find(is_placed.begin(), is_placed.end(), 0u) -
-            is_placed.begin();
-          Assert(first < midpoints.size(), ExcInternalError());
-          std::ostringstream position;
-          for (unsigned int d = 0; d < dim; ++d)
-            position << (d > 0 ? ", " : "") << midpoints[first][d];
-          AssertThrow(false,
-                      ExcPointOutsideGrid(position.str(),
-                                          locator.describe_grid()));
-        }
-      points.insert(records);
+      insert_elements(selected, boundary_ids, points);
     }
 
 
@@ -240,6 +258,15 @@ namespace EBSMPM
     fill<2>(const Shape<2> &, const FillData<2> &, MaterialPoints<2> &);
     template void
     fill<3>(const Shape<3> &, const FillData<3> &, MaterialPoints<3> &);
+
+    template void
+    insert_elements<2>(const std::vector<BoundaryElement<2>> &,
+                       const std::vector<types::boundary_id> &,
+                       BoundaryPoints<2> &);
+    template void
+    insert_elements<3>(const std::vector<BoundaryElement<3>> &,
+                       const std::vector<types::boundary_id> &,
+                       BoundaryPoints<3> &);
 
     template void
     boundary<2>(const Shape<2> &,

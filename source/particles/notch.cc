@@ -9,7 +9,10 @@
 
 #include <ebsmpm/base/exceptions.h>
 
+#include <ebsmpm/particles/boolean_shapes.h>
+#include <ebsmpm/particles/generators.h>
 #include <ebsmpm/particles/notch.h>
+#include <ebsmpm/particles/primitive_shapes.h>
 
 #include <algorithm>
 
@@ -52,6 +55,36 @@ namespace EBSMPM
 
 
 
+      // Whether a point is on the side to which the normal of the plane points.
+      template <int dim>
+      bool
+      is_above(const MaterialPoint<dim> &,
+               const double distance,
+               const Tensor<1, dim> &,
+               const double tie)
+      {
+        return distance >= -tie;
+      }
+
+
+
+      // The same for boundary points. On a face of the slit, only the normal
+      // tells.
+      template <int dim>
+      bool
+      is_above(const BoundaryPoint<dim> &point,
+               const double              distance,
+               const Tensor<1, dim>     &n,
+               const double              tie)
+      {
+        const double along = point.reference_normal() * n;
+        if (std::abs(distance) <= tie && std::abs(along) > 1. - 1e-6)
+          return along < 0.;
+        return distance >= -tie;
+      }
+
+
+
       // Label the points of one kind.
       template <int dim, typename View>
       void
@@ -84,13 +117,50 @@ namespace EBSMPM
               continue;
 
             View view(particle.get_properties());
-            view.set_side(distance >= -tie ? -n : n);
+            view.set_side(is_above(view, distance, n, tie) ? -n : n);
             view.label_frozen() = 1;
             if (is_open && std::abs(distance) <= slit.damage_width + tie)
               view.peak_damage() = 1;
           }
       }
     } // namespace
+
+
+
+    template <int dim>
+    void
+    add_faces(const Slit<dim>                         &slit,
+              const std::shared_ptr<const Shape<dim>> &body,
+              const double                             spacing,
+              const types::boundary_id                 lower_id,
+              const types::boundary_id                 upper_id,
+              BoundaryPoints<dim>                     &boundary_points)
+    {
+      // The surface of what is below the plane, which a plane without end would
+      // not have: what of it lies in the plane is the lower face.
+      const Tensor<1, dim> n = slit.normal / slit.normal.norm();
+      const IntersectionShape<dim> below(
+        std::make_shared<HalfSpaceShape<dim>>(slit.point, n),
+        std::make_shared<IntersectionShape<dim>>(body, slit.open_region));
+
+      std::vector<BoundaryElement<dim>> elements;
+      std::vector<types::boundary_id>   ids;
+      for (BoundaryElement<dim> element : below.boundary_elements(spacing))
+        {
+          if (element.normal * n < 1. - 1e-6 ||
+              std::abs((element.midpoint - slit.point) * n) > 1e-6 * spacing)
+            continue;
+          elements.push_back(element);
+          ids.push_back(lower_id);
+          element.normal = -n;
+          elements.push_back(element);
+          ids.push_back(upper_id);
+        }
+      AssertThrow(!elements.empty(),
+                  ExcInput("The slit has no faces, as it is not open anywhere "
+                           "in the body."));
+      PointGenerator::insert_elements(elements, ids, boundary_points);
+    }
 
 
 
@@ -125,6 +195,21 @@ namespace EBSMPM
     }
 
 
+
+    template void
+    add_faces<2>(const Slit<2> &,
+                 const std::shared_ptr<const Shape<2>> &,
+                 const double,
+                 const types::boundary_id,
+                 const types::boundary_id,
+                 BoundaryPoints<2> &);
+    template void
+    add_faces<3>(const Slit<3> &,
+                 const std::shared_ptr<const Shape<3>> &,
+                 const double,
+                 const types::boundary_id,
+                 const types::boundary_id,
+                 BoundaryPoints<3> &);
 
     template void
     label_slit<2>(const Slit<2> &, MaterialPoints<2> &, BoundaryPoints<2> &);

@@ -60,6 +60,12 @@ namespace EBSMPM
                   balance,
                   "Whether the grid is distributed among the processes by the "
                   "number of points, or else by the number of cells.");
+    add_parameter("Largest imbalance",
+                  imbalance,
+                  "The grid is distributed anew after a step when some process "
+                  "has this many times the mean number of points.",
+                  prm,
+                  Patterns::Double(1., 1e300));
   }
 
 
@@ -124,6 +130,11 @@ namespace EBSMPM
                   damage_width,
                   "How far from the slit points make functions separable; a "
                   "formula.");
+    add_parameter("Faces",
+                  faces,
+                  "Whether the faces of the slit are boundaries, slit.lower and "
+                  "slit.upper (to which the normal points), for Conditions and "
+                  "Tractions.");
     add_parameter("History factor",
                   history_factor,
                   "History field in the damaged band, in units of Gc/(2l).",
@@ -223,6 +234,11 @@ namespace EBSMPM
                   conditions,
                   "Prescribed displacements, 'boundary.component = formula' in "
                   "x, y(, z) and the load u, separated by semicolons.");
+    add_parameter("Tractions",
+                  tractions,
+                  "Given forces per area, 'boundary.component = formula', or "
+                  "'boundary.pressure = formula', as above. They refer to the "
+                  "undeformed body.");
     add_parameter("Increments",
                   increments,
                   "Table of 'load: increment': up to this load, it grows by "
@@ -230,7 +246,8 @@ namespace EBSMPM
     add_parameter("Driven boundary",
                   driven,
                   "Boundary and component whose force is the third column of "
-                  "history.csv.");
+                  "history.csv; or 'load' for the force that does work on the "
+                  "load u (a torque, if u is an angle).");
     add_parameter("Minimum increment",
                   minimum_increment,
                   "Smallest increment to try when steps fail.",

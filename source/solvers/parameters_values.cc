@@ -16,6 +16,7 @@
 
 #include <ebsmpm/solvers/dirichlet_conditions.h>
 #include <ebsmpm/solvers/parameters.h>
+#include <ebsmpm/solvers/traction_conditions.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -125,6 +126,32 @@ namespace EBSMPM
 
 
 
+  std::vector<std::string>
+  Parameters::boundary_names() const
+  {
+    std::vector<std::string> names;
+    for (const auto &boundary : boundaries())
+      names.push_back(boundary.first);
+    if (has_faces())
+      for (const auto &name : {"slit.lower", "slit.upper"})
+        names.push_back(name);
+    return names;
+  }
+
+
+
+  bool
+  Parameters::has_faces() const
+  {
+    AssertThrow(!notch.faces || notch.type == "slit",
+                ExcParameter("Notch/Faces",
+                             "true",
+                             "false unless 'Notch/Type' is slit"));
+    return notch.faces;
+  }
+
+
+
   std::vector<std::pair<double, double>>
   Parameters::increments() const
   {
@@ -159,11 +186,13 @@ namespace EBSMPM
   std::pair<unsigned int, unsigned int>
   Parameters::driven() const
   {
+    if (Utilities::trim(loading.driven) == "load")
+      return {numbers::invalid_unsigned_int, numbers::invalid_unsigned_int};
     const auto        dot  = loading.driven.rfind('.');
     const std::string name = Utilities::trim(loading.driven.substr(0, dot));
-    const auto        list = boundaries();
+    const auto        list = boundary_names();
     for (unsigned int id = 0; id < list.size() && dot != std::string::npos; ++id)
-      if (list[id].first == name)
+      if (list[id] == name)
         {
           const auto component = std::string("xyz").find(
             Utilities::trim(loading.driven.substr(dot + 1)));
@@ -173,7 +202,8 @@ namespace EBSMPM
     AssertThrow(false,
                 ExcParameter("Loading/Driven boundary",
                              loading.driven,
-                             "a boundary and a component, such as 'top.y'"));
+                             "a boundary and a component, such as 'top.y', or "
+                             "'load'"));
     return {};
   }
 
@@ -189,9 +219,7 @@ namespace EBSMPM
     number("Notch/Damage width", notch.damage_width);
     increments();
     driven();
-    std::vector<std::string> names;
-    for (const auto &boundary : boundaries())
-      names.push_back(boundary.first);
+    const std::vector<std::string> names = boundary_names();
     if (grid.dimension == 2)
       {
         const auto lower =
@@ -203,7 +231,8 @@ namespace EBSMPM
                                  grid.upper_corner,
                                  "larger than the lower corner in all "
                                  "directions"));
-        DirichletConditions<2>(loading.conditions, names);
+        const DirichletConditions<2> conditions(loading.conditions, names);
+        TractionConditions<2>(loading.tractions, names, conditions.formulas());
       }
     else
       {
@@ -217,7 +246,8 @@ namespace EBSMPM
                                  grid.upper_corner,
                                  "larger than the lower corner in all "
                                  "directions"));
-        DirichletConditions<3>(loading.conditions, names);
+        const DirichletConditions<3> conditions(loading.conditions, names);
+        TractionConditions<3>(loading.tractions, names, conditions.formulas());
       }
     AssertThrow(!output.directory.empty(),
                 ExcParameter("Output/Directory", "", "the name of a folder"));

@@ -54,17 +54,6 @@ namespace EBSMPM
 
 
 
-      std::vector<std::string>
-      boundary_names(const Parameters &parameters)
-      {
-        std::vector<std::string> names;
-        for (const auto &boundary : parameters.boundaries())
-          names.push_back(boundary.first);
-        return names;
-      }
-
-
-
       template <int dim>
       PointGenerator::FillData<dim>
       fill_data(const Parameters &parameters)
@@ -127,7 +116,10 @@ namespace EBSMPM
         ElasticConstants::shear_modulus(parameters.material.young_modulus,
                                         parameters.material.poisson_ratio)))
     , degradation(parameters.damage.residual_stiffness)
-    , conditions(parameters.loading.conditions, boundary_names(parameters))
+    , conditions(parameters.loading.conditions, parameters.boundary_names())
+    , tractions(parameters.loading.tractions,
+                parameters.boundary_names(),
+                conditions.formulas())
     , pcout(screen != nullptr ? *screen : std::cout,
             screen != nullptr &&
               Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -241,6 +233,18 @@ namespace EBSMPM
           parameters.number("Notch/Label width", notch.label_width);
         slit.damage_width =
           parameters.number("Notch/Damage width", notch.damage_width);
+        if (parameters.has_faces())
+          {
+            const types::boundary_id lower_id = parameters.boundaries().size();
+            Notch::add_faces<dim>(
+              slit,
+              body,
+              parameters.number("Body/Boundary point spacing",
+                                parameters.body.spacing),
+              lower_id,
+              lower_id + 1,
+              boundary_points);
+          }
         Notch::label_slit<dim>(slit, points, boundary_points);
       }
     else if (notch.type == "damage")
@@ -260,7 +264,7 @@ namespace EBSMPM
   {
     std::vector<std::string> columns;
     const std::string        components = "xyz";
-    for (const auto &name : boundary_names(parameters))
+    for (const auto &name : parameters.boundary_names())
       for (unsigned int d = 0; d < dim; ++d)
         columns.push_back("force_" + name + "_" + components[d]);
     for (const auto &name : {"elastic_energy",
@@ -281,6 +285,8 @@ namespace EBSMPM
                              "pieces",
                              "free_pieces",
                              "smallest_opening",
+                             "conjugate_force",
+                             "opened_volume",
                              "wall_time"})
       columns.push_back(name);
 
@@ -343,13 +349,15 @@ namespace EBSMPM
     const auto   driven    = parameters.driven();
 
     std::vector<double> values;
-    for (unsigned int id = 0; id < parameters.boundaries().size(); ++id)
+    for (unsigned int id = 0; id < parameters.boundary_names().size(); ++id)
       {
         const auto found = reactions.find(id);
         for (unsigned int d = 0; d < dim; ++d)
           values.push_back(found == reactions.end() ? 0. : found->second[d]);
       }
-    last_force = values[dim * driven.first + driven.second];
+    last_force = driven.first == numbers::invalid_unsigned_int ?
+                   report.conjugate_force :
+                   values[dim * driven.first + driven.second];
     peak_force = std::max(peak_force, std::abs(last_force));
     for (const double value : {energies.elastic,
                                area * parameters.damage.fracture_energy,
@@ -369,6 +377,8 @@ namespace EBSMPM
                                1. * report.n_pieces,
                                1. * report.n_free_pieces,
                                report.opening.smallest,
+                               report.conjugate_force,
+                               report.opened_volume,
                                wall_clock.wall_time()})
       values.push_back(value);
     history->write(n_step, load, last_force, values);
@@ -489,6 +499,12 @@ namespace EBSMPM
                                              penalty,
                                              parameters.step_data<dim>(),
                                              &timer);
+      std::vector<types::boundary_id> faces;
+      for (unsigned int id = parameters.boundaries().size();
+           id < parameters.boundary_names().size();
+           ++id)
+        faces.push_back(id);
+      step->set_tractions(tractions, faces);
     }
     write_header();
 

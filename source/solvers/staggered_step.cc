@@ -9,6 +9,7 @@
 
 #include <ebsmpm/base/exceptions.h>
 
+#include <ebsmpm/assembly/boundary_resultants.h>
 #include <ebsmpm/assembly/rigid_motions.h>
 #include <ebsmpm/assembly/supports.h>
 
@@ -34,6 +35,7 @@ namespace EBSMPM
                                     TimerOutput          *timer_)
     : material_points(points)
     , boundary_material_points(boundary_points)
+    , material(material)
     , degradation(degradation)
     , data(data)
     , own_timer(timer_ != nullptr ?
@@ -61,6 +63,18 @@ namespace EBSMPM
     n_ids = Utilities::MPI::max(n_ids, u_space.communicator());
     for (unsigned int id = 0; id < n_ids; ++id)
       boundary_ids.push_back(id);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::set_tractions(
+    const TractionConditions<dim>         &tractions_,
+    const std::vector<types::boundary_id> &faces)
+  {
+    tractions   = &tractions_;
+    crack_faces = faces;
   }
 
 
@@ -181,6 +195,8 @@ namespace EBSMPM
         boundary_labels.peak_damage[q] = point.peak_damage();
       }
     conditions.apply(load, boundary_points, boundary);
+    if (tractions != nullptr)
+      tractions->apply(load, boundary_points, boundary);
 
     const auto update_partition = [&]() {
       TimerOutput::Scope scope(*timer, "crack partition");
@@ -280,7 +296,7 @@ namespace EBSMPM
                                  std::to_string(report.damage_change) + "."));
     if (data.refuse_indefinite && report.indefinite_at_end)
       check_stability();
-    all_reactions   = u_system.reactions(boundary, u_increment, boundary_ids);
+    sum_up_boundary(conditions, load, report);
     report.n_pieces = u_system.pieces().pieces().size();
     report.n_free_pieces = u_system.pieces().n_free();
     report.n_junctions   = partition.n_junctions();
@@ -306,6 +322,33 @@ namespace EBSMPM
                          displacements,
                          update.displacement_increment,
                          update.F);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::sum_up_boundary(
+    const DirichletConditions<dim> &conditions,
+    const double                    load,
+    Report                         &report)
+  {
+    const MPI_Comm &communicator = u_space.communicator();
+    all_reactions     = u_system.reactions(boundary, u_increment, boundary_ids);
+    const auto update = u_system.update_points(boundary, u_increment);
+    report.conjugate_force = BoundaryResultants::conjugate_force(
+      material,
+      degradation,
+      u_system.penalty(),
+      boundary,
+      update,
+      conditions.rates(load, boundary_points, boundary),
+      communicator);
+    if (!crack_faces.empty())
+      report.opened_volume = BoundaryResultants::opened_volume(boundary,
+                                                               update,
+                                                               crack_faces,
+                                                               communicator);
   }
 
 

@@ -46,9 +46,11 @@ namespace EBSMPM
    *     \sum_p V_0\, (\mathbf P\mathbf F_n^T):\nabla_n\delta\mathbf u
    *   + \sum_b A_0\, \bigl[ \beta\, \mathbf w\cdot\delta\mathbf u
    *     - \delta\mathbf u\cdot\mathbf P\mathbf N
-   *     - \mathbf w\cdot(\mathbf A:\nabla_X\delta\mathbf u)\mathbf N \bigr],
+   *     - \mathbf w\cdot(\mathbf A:\nabla_X\delta\mathbf u)\mathbf N
+   *     - \mathbf t\cdot\delta\mathbf u \bigr],
    * @f]
-   * (equation (6) of Sugai et al.; method, sections 1 and 3), and the tangent
+   * (equation (6) of Sugai et al.; method, sections 1 and 3; $\mathbf t$ is a
+   * given force per reference area), and the tangent
    * its exact derivative, including that of $\mathbf A$ in the last term. The
    * tangent is symmetric.
    *

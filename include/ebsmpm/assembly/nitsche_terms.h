@@ -26,8 +26,9 @@
 namespace EBSMPM
 {
   /**
-   * Dirichlet conditions by Nitsche's method, for one group of boundary points:
-   * the second sum of the residual of DisplacementSystem.
+   * What acts on the boundary, for one group of boundary points: Dirichlet
+   * conditions by Nitsche's method, the second sum of the residual of
+   * DisplacementSystem, and given tractions.
    *
    * With $\mathbf w=\mathbf u_n+\Delta\mathbf u-\bar{\mathbf u}$, zero in
    * components that are not prescribed, the energy of the boundary terms is
@@ -53,7 +54,8 @@ namespace EBSMPM
    * @f}
    * (equation (6) of Sugai et al.; method, section 3). The last term is of the
    * size of the mismatch, but without it Newton's method would not be
-   * quadratic.
+   * quadratic. Tractions $\mathbf t$ per reference area add $-\sum_b A_0
+   * B_I t_j$ to the residual, and nothing to the tangent.
    *
    * @code
    * const NitscheTerms<dim> terms(material, degradation, beta);

@@ -59,7 +59,7 @@ namespace EBSMPM
 
   /**
    * What the systems have to know about the boundary points: the same as for
-   * the material points, and the Dirichlet data at the end of the step.
+   * the material points, and the boundary data at the end of the step.
    */
   template <int dim>
   struct BoundaryState
@@ -88,6 +88,12 @@ namespace EBSMPM
     /** Which components are prescribed; the others are free of traction. */
     std::vector<std::array<bool, dim>> constrained;
 
+    /**
+     * Force per reference area at the end of the step, $\mathbf t$, in
+     * components that are not prescribed.
+     */
+    std::vector<Tensor<1, dim>> traction;
+
     /** Give all arrays the size @p n. */
     void
     resize(const unsigned int n)
@@ -100,6 +106,7 @@ namespace EBSMPM
       boundary_id.resize(n);
       prescribed.resize(n);
       constrained.resize(n);
+      traction.resize(n);
     }
   };
 } // namespace EBSMPM

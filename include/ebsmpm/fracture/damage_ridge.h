@@ -46,7 +46,13 @@ namespace EBSMPM
    *      \mathbf V = \frac{\sum_I w_I\,\mathbf x_I\otimes\mathbf x_I}{\sum_I
    *      w_I} - \mathbf c\otimes\mathbf c.
    *    @f]
-   *    Its normal $\mathbf n$ is the axis of least variance. This is as good as
+   *    Its normal $\mathbf n$ is the axis of least variance, relative to that
+   *    of the whole ball: the direction in which
+   *    $\mathbf n\cdot\mathbf V\mathbf n/\mathbf n\cdot\mathbf V_0\mathbf n$
+   *    is smallest, where $\mathbf V_0$ is $\mathbf V$ with the weights one.
+   *    (In the interior, $\mathbf V_0$ is isotropic. Next to a free surface or
+   *    in a thin plate, the ball is cut off, and the thickness of what is left
+   *    of it must not be taken for that of the ridge.) This is as good as
    *    the ball is well placed: ahead of the tip and far from the ridge, it
    *    contains no more than an end or a segment of the ridge, and the axes are
    *    those of that piece. Therefore, each function finally takes normal and
@@ -82,7 +88,8 @@ namespace EBSMPM
       /** Maximum of the smoothed damage around. */
       double ridge_damage = 0.;
 
-      /** Ratio of the two smallest principal variances of the ridge. */
+      /** Ratio of the two smallest principal variances of the ridge, relative
+       * to those of the ball. */
       double variance_ratio = 1.;
 
       /** The smallest principal variance, over the square of the radius. */

@@ -161,17 +161,28 @@ namespace EBSMPM
 
 
     /**
-     * Divide the surface of @p shape into elements not longer than @p spacing,
-     * and add a boundary point at the centre of each that one of the
-     * @p selections wants; the first one that does gives the number.
+     * Add a boundary point at the centre of each element, with the number given
+     * for it. All processes give all elements, and keep what is in their cells.
      * Collective.
      *
      * Every point goes to the cell that contains the body just behind the
      * point, so an edge may run along grid lines, and along the rim of the
      * grid. If a point is outside of the grid, ExcPointOutsideGrid is thrown on
      * all processes.
-     *
-     * All processes look at the whole surface, and keep what is in their cells.
+     */
+    template <int dim>
+    void
+    insert_elements(const std::vector<BoundaryElement<dim>> &elements,
+                    const std::vector<types::boundary_id>   &boundary_ids,
+                    BoundaryPoints<dim>                     &points);
+
+
+
+    /**
+     * Divide the surface of @p shape into elements not longer than @p spacing,
+     * and add a boundary point at the centre of each that one of the
+     * @p selections wants; the first one that does gives the number.
+     * See insert_elements(). Collective.
      */
     template <int dim>
     void

@@ -87,10 +87,40 @@ namespace EBSMPM
 
 
     /**
+     * Add boundary points on both faces of a slit, as far as it is open and in
+     * @p body: at the same positions, each with the area and with the normal
+     * that points out of the material on its side, into the slit. To be called
+     * before label_slit(). Collective.
+     *
+     * @code
+     *   --------x--------x--------x------   upper: normal -n, number upper_id
+     *           |        |        |              (n points upwards)
+     *   --------x--------x--------x------   lower: normal +n, number lower_id
+     * @endcode
+     *
+     * @param body the body that has the slit
+     * @param spacing the largest length of the elements
+     * @param lower_id, @p upper_id the numbers that the points get
+     * @param boundary_points get the new points
+     */
+    template <int dim>
+    void
+    add_faces(const Slit<dim>                         &slit,
+              const std::shared_ptr<const Shape<dim>> &body,
+              const double                             spacing,
+              const types::boundary_id                 lower_id,
+              const types::boundary_id                 upper_id,
+              BoundaryPoints<dim>                     &boundary_points);
+
+
+
+    /**
      * Give the points next to a slit their labels: the side vector, which is
      * the unit vector perpendicular to the plane and towards it; "frozen"; and
      * the peak damage. A point on the plane (up to $10^{-10}$ label widths)
-     * counts as being on the side to which the normal points.
+     * counts as being on the side to which the normal points; but a boundary
+     * point there whose own normal is along the plane's, on a face of the slit,
+     * is on the side out of which its normal points.
      *
      * Both kinds of points are to be in their reference positions.
      */

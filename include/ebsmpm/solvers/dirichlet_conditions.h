@@ -13,10 +13,8 @@
 #include <ebsmpm/assembly/point_state.h>
 #include <ebsmpm/particles/cell_points.h>
 
-#include <deal.II/base/function_parser.h>
+#include <ebsmpm/solvers/boundary_formulas.h>
 
-#include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -59,11 +57,23 @@ namespace EBSMPM
           const CellPoints<dim> &boundary_points,
           BoundaryState<dim> &   boundary) const;
 
+    /**
+     * Return $\partial\bar{\mathbf u}/\partial u$ at all boundary points, by
+     * central differences; zero in components that are not prescribed. This is
+     * what a force that does work on the load u is made of, see
+     * conjugate_force().
+     */
+    std::vector<Tensor<1, dim>>
+    rates(const double              load,
+          const CellPoints<dim>    &boundary_points,
+          const BoundaryState<dim> &boundary) const;
+
+    /** The formulas. */
+    const BoundaryFormulas<dim> &
+    formulas() const;
+
   private:
-    /** Formulas by boundary id and component; null if there is none. */
-    std::map<types::boundary_id,
-             std::array<std::unique_ptr<FunctionParser<dim>>, dim>>
-      formulas;
+    const BoundaryFormulas<dim> text_formulas;
   };
 } // namespace EBSMPM
 

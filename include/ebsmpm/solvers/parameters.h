@@ -50,6 +50,7 @@ namespace EBSMPM
       std::string  lower_corner = "-3*h, -3*h";
       std::string  upper_corner = "1+3*h, 1+3*h";
       bool         balance      = true;
+      double       imbalance    = 1.3;
     } grid;
 
     /** Section "Body". */
@@ -77,6 +78,7 @@ namespace EBSMPM
       std::string region         = "half_space(0.5,0.5, 1,0)";
       std::string label_width    = "5*h";
       std::string damage_width   = "1.01*h";
+      bool        faces          = false;
       double      history_factor = 1000;
     } notch;
 
@@ -127,6 +129,7 @@ namespace EBSMPM
 
       std::string conditions =
         "bottom.x = 0; bottom.y = 0; top.x = 0; top.y = u";
+      std::string  tractions         = "";
       std::string  increments        = "0.003: 2e-4, 0.008: 2e-5";
       std::string  driven            = "top.y";
       double       minimum_increment = 1e-8;
@@ -217,11 +220,25 @@ namespace EBSMPM
     std::vector<std::pair<std::string, std::string>>
     boundaries() const;
 
+    /**
+     * Names of all boundaries, by boundary id: those of boundaries(), and then
+     * those of the faces of a slit that has them, the lower one first.
+     */
+    std::vector<std::string>
+    boundary_names() const;
+
+    /** Whether there is a slit whose faces are boundaries. */
+    bool
+    has_faces() const;
+
     /** The load table: up to which load, by which increments. */
     std::vector<std::pair<double, double>>
     increments() const;
 
-    /** The driven boundary and component whose force is reported first. */
+    /**
+     * The driven boundary and component whose force is reported first; the
+     * invalid unsigned integer if it is the force that does work on the load.
+     */
     std::pair<unsigned int, unsigned int>
     driven() const;
 

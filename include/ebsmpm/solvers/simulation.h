@@ -142,6 +142,7 @@ namespace EBSMPM
     std::unique_ptr<Material<dim>>      material;
     const Degradation                   degradation;
     const DirichletConditions<dim>      conditions;
+    const TractionConditions<dim>       tractions;
     double                              penalty = 0.;
     std::unique_ptr<StaggeredStep<dim>> step;
 

@@ -27,6 +27,7 @@
 
 #include <ebsmpm/solvers/dirichlet_conditions.h>
 #include <ebsmpm/solvers/newton_solver.h>
+#include <ebsmpm/solvers/traction_conditions.h>
 
 #include <deal.II/base/timer.h>
 
@@ -155,6 +156,12 @@ namespace EBSMPM
 
       /** How far the lips of the cracks are apart at the end of the step. */
       CrackOpening opening;
+
+      /** See BoundaryResultants::conjugate_force(). */
+      double conjugate_force = 0.;
+
+      /** See BoundaryResultants::opened_volume(), for the faces of a slit. */
+      double opened_volume = 0.;
     };
 
     /**
@@ -178,11 +185,22 @@ namespace EBSMPM
                   TimerOutput          *timer = nullptr);
 
     /**
+     * Let tractions act on the boundary, too.
+     *
+     * @param tractions must live as long as this object
+     * @param faces the boundary ids of faces of cracks whose opened volume is
+     *   reported
+     */
+    void
+    set_tractions(const TractionConditions<dim>         &tractions,
+                  const std::vector<types::boundary_id> &faces = {});
+
+    /**
      * Solve for the state under the load @p load. Starts from the accepted
      * state, however often it is called. Collective.
      *
      * @param conditions the Dirichlet data
-     * @param load the argument of the conditions
+     * @param load the argument of the conditions and of the tractions
      * @param guess_factor ratio of this load increment to the last accepted
      *   one, by which the last increment of displacement is extrapolated for
      *   the initial guess; zero for none
@@ -257,12 +275,19 @@ namespace EBSMPM
     CrackOpening
     opening() const;
 
+    /** Sum up what acts on the boundary at the end of the step. */
+    void
+    sum_up_boundary(const DirichletConditions<dim> &conditions,
+                    const double                    load,
+                    Report                         &report);
+
     /** Raise ExcSolverFailure if the tangent at the solution is indefinite. */
     void
     check_stability();
 
     MaterialPoints<dim>         &material_points;
     BoundaryPoints<dim>         &boundary_material_points;
+    const Material<dim>         &material;
     const Degradation           &degradation;
     const AdditionalData         data;
     std::unique_ptr<TimerOutput> own_timer;
@@ -298,6 +323,8 @@ namespace EBSMPM
     double             first_residual   = 0.;
     double             force_scale      = 0.;
 
+    const TractionConditions<dim>               *tractions = nullptr;
+    std::vector<types::boundary_id>              crack_faces;
     std::vector<types::boundary_id>              boundary_ids;
     std::map<types::boundary_id, Tensor<1, dim>> all_reactions;
   };

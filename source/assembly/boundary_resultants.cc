@@ -1,0 +1,119 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/assembly/boundary_resultants.h>
+#include <ebsmpm/assembly/point_values.h>
+
+#include <algorithm>
+
+namespace EBSMPM
+{
+  namespace BoundaryResultants
+  {
+    template <int dim>
+    double
+    conjugate_force(const Material<dim>                            &material,
+                    const Degradation                              &degradation,
+                    const double                                    penalty,
+                    const BoundaryState<dim>                       &boundary,
+                    const typename DisplacementSystem<dim>::Update &update,
+                    const std::vector<Tensor<1, dim>>              &rates,
+                    const MPI_Comm communicator)
+    {
+      double sum = 0.;
+      for (unsigned int q = 0; q < rates.size(); ++q)
+        {
+          if (rates[q].norm_square() == 0.)
+            continue;
+          const double   g = degradation.value(boundary.damage[q]);
+          Tensor<2, dim> P;
+          material.stress(update.F[q], g, P);
+          const Tensor<1, dim> flux =
+            P * boundary.normal[q] -
+            penalty * mismatch(boundary, q, update.displacement_increment[q]);
+          sum += boundary.area[q] * (flux * rates[q]);
+        }
+      return Utilities::MPI::sum(sum, communicator);
+    }
+
+
+
+    template <int dim>
+    double
+    traction_work(const BoundaryState<dim>                       &boundary,
+                  const typename DisplacementSystem<dim>::Update &update,
+                  const MPI_Comm                                  communicator)
+    {
+      double sum = 0.;
+      for (unsigned int q = 0; q < boundary.area.size(); ++q)
+        sum += boundary.area[q] *
+               (boundary.traction[q] *
+                (boundary.displacement[q] + update.displacement_increment[q]));
+      return Utilities::MPI::sum(sum, communicator);
+    }
+
+
+
+    template <int dim>
+    double
+    opened_volume(const BoundaryState<dim>                       &boundary,
+                  const typename DisplacementSystem<dim>::Update &update,
+                  const std::vector<types::boundary_id>          &ids,
+                  const MPI_Comm                                  communicator)
+    {
+      double sum = 0.;
+      for (unsigned int q = 0; q < boundary.area.size(); ++q)
+        if (std::find(ids.begin(), ids.end(), boundary.boundary_id[q]) !=
+            ids.end())
+          sum -= boundary.area[q] *
+                 (boundary.normal[q] * (boundary.displacement[q] +
+                                        update.displacement_increment[q]));
+      return Utilities::MPI::sum(sum, communicator);
+    }
+
+
+
+    template double
+    conjugate_force<2>(const Material<2> &,
+                       const Degradation &,
+                       const double,
+                       const BoundaryState<2> &,
+                       const typename DisplacementSystem<2>::Update &,
+                       const std::vector<Tensor<1, 2>> &,
+                       const MPI_Comm);
+    template double
+    conjugate_force<3>(const Material<3> &,
+                       const Degradation &,
+                       const double,
+                       const BoundaryState<3> &,
+                       const typename DisplacementSystem<3>::Update &,
+                       const std::vector<Tensor<1, 3>> &,
+                       const MPI_Comm);
+
+    template double
+    traction_work<2>(const BoundaryState<2> &,
+                     const typename DisplacementSystem<2>::Update &,
+                     const MPI_Comm);
+    template double
+    traction_work<3>(const BoundaryState<3> &,
+                     const typename DisplacementSystem<3>::Update &,
+                     const MPI_Comm);
+
+    template double
+    opened_volume<2>(const BoundaryState<2> &,
+                     const typename DisplacementSystem<2>::Update &,
+                     const std::vector<types::boundary_id> &,
+                     const MPI_Comm);
+    template double
+    opened_volume<3>(const BoundaryState<3> &,
+                     const typename DisplacementSystem<3>::Update &,
+                     const std::vector<types::boundary_id> &,
+                     const MPI_Comm);
+  } // namespace BoundaryResultants
+} // namespace EBSMPM

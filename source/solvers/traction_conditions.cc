@@ -1,0 +1,66 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/base/exceptions.h>
+
+#include <ebsmpm/solvers/traction_conditions.h>
+
+namespace EBSMPM
+{
+  template <int dim>
+  TractionConditions<dim>::TractionConditions(
+    const std::string              &text,
+    const std::vector<std::string> &boundary_names,
+    const BoundaryFormulas<dim>    &displacements)
+    : formulas("traction",
+               text,
+               boundary_names,
+               BoundaryFormulas<dim>::Components::coordinates_and_pressure)
+  {
+    for (unsigned int id = 0; id < boundary_names.size(); ++id)
+      for (unsigned int c = 0; c < dim; ++c)
+        AssertThrow(displacements.formula(id, c) == nullptr ||
+                      (formulas.formula(id, c) == nullptr &&
+                       formulas.formula(id, formulas.pressure) == nullptr),
+                    ExcInput("The boundary '" + boundary_names[id] +
+                             "' has a prescribed displacement in direction " +
+                             std::string("xyz").substr(c, 1) +
+                             " and cannot have a traction there."));
+  }
+
+
+
+  template <int dim>
+  void
+  TractionConditions<dim>::apply(const double           load,
+                                 const CellPoints<dim> &boundary_points,
+                                 BoundaryState<dim>    &boundary) const
+  {
+    formulas.set_load(load);
+    for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
+      {
+        const auto       id = boundary.boundary_id[q];
+        const Point<dim> X =
+          boundary_points.location(q) - boundary.displacement[q];
+        Tensor<1, dim> &traction = boundary.traction[q];
+
+        traction = Tensor<1, dim>();
+        if (const auto *p = formulas.formula(id, formulas.pressure))
+          traction = -p->value(X) * boundary.normal[q];
+        for (unsigned int c = 0; c < dim; ++c)
+          if (const auto *formula = formulas.formula(id, c))
+            traction[c] += formula->value(X);
+      }
+  }
+
+
+
+  template class TractionConditions<2>;
+  template class TractionConditions<3>;
+} // namespace EBSMPM
