@@ -7,7 +7,11 @@
 //
 // -----------------------------------------------------------------------------
 
+#include <ebsmpm/splines/function_directory.h>
+
 #include <ebsmpm/assembly/field_snapshot.h>
+
+#include <array>
 
 namespace EBSMPM
 {
@@ -27,11 +31,21 @@ namespace EBSMPM
   {
     if (original.size() == 0)
       return;
+    is_elsewhere  = false;
     functions     = space.functions();
     n_independent = space.n_independent();
     field.reinit(original, true);
     field = original;
     field.update_ghost_values();
+  }
+
+
+
+  template <int dim>
+  void
+  FieldSnapshot<dim>::grid_has_moved()
+  {
+    is_elsewhere = true;
   }
 
 
@@ -55,6 +69,44 @@ namespace EBSMPM
       return;
     target.zero_out_ghost_values();
     const auto &owned = space.locally_owned_independent();
+
+    if (is_elsewhere)
+      {
+        // What each process remembers of functions that it owned, for those
+        // that own them now. A function was owned by one process only.
+        struct Coefficients
+        {
+          bool                             is_known = false;
+          std::array<double, n_components> values{};
+        };
+        using Directory = FunctionDirectory<dim, Coefficients>;
+        typename Directory::Table table;
+        const auto                old_range = field.locally_owned_elements();
+        for (const auto &entry : functions)
+          if (entry.second.index < n_independent &&
+              old_range.is_element(n_components * entry.second.index))
+            {
+              Coefficients &known = table[entry.first];
+              known.is_known      = true;
+              for (unsigned int a = 0; a < n_components; ++a)
+                known.values[a] = field(n_components * entry.second.index + a);
+            }
+        for (const auto &entry : space.functions())
+          if (owned.is_element(entry.second.index))
+            table.emplace(entry.first, Coefficients());
+        table =
+          Directory(space.communicator())
+            .reduce(table, [](const Coefficients &a, const Coefficients &b) {
+              return a.is_known ? a : b;
+            });
+        for (const auto &entry : space.functions())
+          if (owned.is_element(entry.second.index))
+            for (unsigned int a = 0; a < n_components; ++a)
+              target(n_components * entry.second.index + a) =
+                table.at(entry.first).values[a];
+        return;
+      }
+
     for (const auto &entry : space.functions())
       {
         if (!owned.is_element(entry.second.index))

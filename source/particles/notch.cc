@@ -119,7 +119,13 @@ namespace EBSMPM
             View view(particle.get_properties());
             view.set_side(is_above(view, distance, n, tie) ? -n : n);
             view.label_frozen() = 1;
-            if (is_open && std::abs(distance) <= slit.damage_width + tie)
+            bool is_broken =
+              is_open && std::abs(distance) <= slit.damage_width + tie;
+            if (slit.tip_margin > 0.)
+              for (const Tensor<1, dim> &direction : directions)
+                is_broken = is_broken && slit.open_region->contains(
+                                           foot + slit.tip_margin * direction);
+            if (is_broken)
               view.peak_damage() = 1;
           }
       }
@@ -138,7 +144,7 @@ namespace EBSMPM
     {
       // The surface of what is below the plane, which a plane without end would
       // not have: what of it lies in the plane is the lower face.
-      const Tensor<1, dim> n = slit.normal / slit.normal.norm();
+      const Tensor<1, dim>         n = slit.normal / slit.normal.norm();
       const IntersectionShape<dim> below(
         std::make_shared<HalfSpaceShape<dim>>(slit.point, n),
         std::make_shared<IntersectionShape<dim>>(body, slit.open_region));

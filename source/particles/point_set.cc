@@ -401,6 +401,29 @@ namespace EBSMPM
 
   template <int dim, typename View>
   void
+  PointSet<dim, View>::prepare_for_repartitioning()
+  {
+    particle_handler.prepare_for_coarsening_and_refinement();
+  }
+
+
+
+  template <int dim, typename View>
+  void
+  PointSet<dim, View>::finish_repartitioning()
+  {
+    particle_handler.unpack_after_coarsening_and_refinement();
+    sort();
+    for (const auto &cell : tria.active_cell_iterators())
+      if (cell->is_locally_owned())
+        sort_within_cell(cell);
+    particle_handler.update_cached_numbers();
+  }
+
+
+
+  template <int dim, typename View>
+  void
   PointSet<dim, View>::copy_from(const PointSet<dim, View> &other)
   {
     AssertThrow(&tria == &other.tria,

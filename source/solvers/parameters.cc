@@ -130,6 +130,10 @@ namespace EBSMPM
                   damage_width,
                   "How far from the slit points make functions separable; a "
                   "formula.");
+    add_parameter("Tip margin",
+                  tip_margin,
+                  "How far behind the tip of the slit they do; a formula. With "
+                  "0.45*h, the length of the slit is right on average.");
     add_parameter("Faces",
                   faces,
                   "Whether the faces of the slit are boundaries, slit.lower and "

@@ -217,6 +217,7 @@ namespace EBSMPM
     number("Body/Boundary point spacing", body.spacing);
     number("Notch/Label width", notch.label_width);
     number("Notch/Damage width", notch.damage_width);
+    number("Notch/Tip margin", notch.tip_margin);
     increments();
     driven();
     const std::vector<std::string> names = boundary_names();

@@ -233,6 +233,8 @@ namespace EBSMPM
           parameters.number("Notch/Label width", notch.label_width);
         slit.damage_width =
           parameters.number("Notch/Damage width", notch.damage_width);
+        slit.tip_margin =
+          parameters.number("Notch/Tip margin", notch.tip_margin);
         if (parameters.has_faces())
           {
             const types::boundary_id lower_id = parameters.boundaries().size();
@@ -507,6 +509,7 @@ namespace EBSMPM
       step->set_tractions(tractions, faces);
     }
     write_header();
+    last_imbalance = imbalance();
 
     double       load           = 0.;
     double       last_increment = 0.;
@@ -557,6 +560,7 @@ namespace EBSMPM
         last_increment = increment;
         write_step(n_step, load, report);
         step->accept();
+        balance(n_step);
         signals.step_done(n_step, load, report);
         if (parameters.output.interval > 0 &&
             n_step % parameters.output.interval == 0)

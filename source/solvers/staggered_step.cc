@@ -9,7 +9,6 @@
 
 #include <ebsmpm/base/exceptions.h>
 
-#include <ebsmpm/assembly/boundary_resultants.h>
 #include <ebsmpm/assembly/rigid_motions.h>
 #include <ebsmpm/assembly/supports.h>
 
@@ -54,7 +53,7 @@ namespace EBSMPM
     , d_solver(data.damage_solver)
   {
     u_solver.set_block_size(dim);
-    begin();
+    begin(FieldSnapshot<dim>());
 
     // All ids of all processes, by way of the largest one.
     unsigned int n_ids = 0;
@@ -69,19 +68,7 @@ namespace EBSMPM
 
   template <int dim>
   void
-  StaggeredStep<dim>::set_tractions(
-    const TractionConditions<dim>         &tractions_,
-    const std::vector<types::boundary_id> &faces)
-  {
-    tractions   = &tractions_;
-    crack_faces = faces;
-  }
-
-
-
-  template <int dim>
-  void
-  StaggeredStep<dim>::begin()
+  StaggeredStep<dim>::begin(const FieldSnapshot<dim> &old_damage)
   {
     TimerOutput::Scope scope(*timer, "points and spaces");
 
@@ -112,7 +99,6 @@ namespace EBSMPM
       }
 
     // The damage sees both sides of a crack.
-    const FieldSnapshot<dim>                old_damage(d_space, d_field);
     typename SplineSpace<dim>::SupportTable supports;
     add_supports<dim>(points, current_volume, {}, d_space, supports);
     add_supports<dim>(boundary_points, {}, {}, d_space, supports);
@@ -328,33 +314,6 @@ namespace EBSMPM
 
   template <int dim>
   void
-  StaggeredStep<dim>::sum_up_boundary(
-    const DirichletConditions<dim> &conditions,
-    const double                    load,
-    Report                         &report)
-  {
-    const MPI_Comm &communicator = u_space.communicator();
-    all_reactions     = u_system.reactions(boundary, u_increment, boundary_ids);
-    const auto update = u_system.update_points(boundary, u_increment);
-    report.conjugate_force = BoundaryResultants::conjugate_force(
-      material,
-      degradation,
-      u_system.penalty(),
-      boundary,
-      update,
-      conditions.rates(load, boundary_points, boundary),
-      communicator);
-    if (!crack_faces.empty())
-      report.opened_volume = BoundaryResultants::opened_volume(boundary,
-                                                               update,
-                                                               crack_faces,
-                                                               communicator);
-  }
-
-
-
-  template <int dim>
-  void
   StaggeredStep<dim>::check_stability()
   {
     // What the solver has found may have been true of an earlier tangent.
@@ -512,7 +471,23 @@ namespace EBSMPM
     last_increment.reinit(u_space, u_increment);
     material_points.sort();
     boundary_material_points.sort();
-    begin();
+    begin(FieldSnapshot<dim>(d_space, d_field));
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::repartition(const std::function<void()> &move)
+  {
+    FieldSnapshot<dim> old_damage(d_space, d_field);
+    old_damage.grid_has_moved();
+    last_increment.grid_has_moved();
+
+    // Nothing of the old distribution is to be looked at again.
+    u_increment.reinit(0);
+    move();
+    begin(old_damage);
   }
 
 

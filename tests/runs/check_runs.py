@@ -191,6 +191,132 @@ def run_rigid():
         assert numpy.abs(error).max() < 0.01 * motion, error
 
 
+# The specimen of SMALL, one cell deep, with three layers of points, held in the
+# third direction: plane strain. The grid reaches beyond it on both sides, since
+# points on the surface move by rounding errors.
+THIN = dict(
+    SMALL,
+    **{
+        "Background grid/Dimension": "3",
+        "Background grid/Lower corner": "-3*h, -3*h, -h",
+        "Background grid/Upper corner": "1+3*h, 1+3*h, 2*h",
+        "Body/Shape": "box(0,0,0, 1,1,h)",
+        "Body/Boundaries": "bottom: y < 1e-9; top: y > 1 - 1e-9; "
+        "back: nz < -0.5; front: nz > 0.5",
+        "Notch/Plane point": "0.5, 0.5, 0",
+        "Notch/Plane normal": "0, 1, 0",
+        "Notch/Region": "half_space(0.5,0.5,0, 1,0,0)",
+        "Loading/Conditions": "bottom.x = 0; bottom.y = 0; top.x = 0; "
+        "top.y = u; back.z = 0; front.z = 0",
+        "Loading/Increments": "0.004: 1e-3, 0.012: 3e-4",
+    },
+)
+
+
+def run_quasi_3d():
+    """Plane strain in 3-D is plane strain: per depth, the force of a thin
+    specimen is that in 2-D until the crack runs, to the accuracy of the
+    quadrature, then to a few per cent of the peak, and gone at the end."""
+    plane = history(
+        dict(SMALL, **{"Loading/Increments": THIN["Loading/Increments"]})
+    )
+    thin = history(THIN)
+    check_separation(thin, "3-D")
+    largest = peak(plane)
+    for a, b in zip(plane, thin):
+        before = a["twin_functions"] == plane[0]["twin_functions"]
+        difference = abs(a["force"] - 15.0 * b["force"]) / largest
+        assert difference < (1e-3 if before else 0.04), (a["step"], difference)
+    assert abs(len(plane) - len(thin)) <= 2, (len(plane), len(thin))
+
+
+def run_ranks_3d():
+    """The same history on 1, 2, 3, 4 processes in 3-D, to full separation. The
+    cells are distributed such that the crack runs across the border."""
+    settings = dict(
+        THIN,
+        **{
+            "Background grid/Cell size": "1/9",
+            "Background grid/Balance": "false",
+            "Damage/Length scale": "2*h",
+            "Loading/Increments": "0.004: 2e-3, 0.02: 5e-4",
+        },
+    )
+    reference = history(settings)
+    check_separation(reference, "3-D, 1 process")
+    for ranks in (2, 3, 4):
+        compare(
+            reference,
+            history(settings, ranks),
+            f"3-D, {ranks} processes",
+            tolerance=1e-6,
+        )
+
+
+def run_balance():
+    """After separation, one half is moved over many cells: the grid is
+    distributed anew on the way, and the history is that of one process."""
+    settings = dict(
+        SMALL,
+        **{
+            "Background grid/Upper corner": "1+3*h, 1.6",
+            "Background grid/Largest imbalance": "1.05",
+            "Loading/Increments": "0.004: 1e-3, 0.0115: 3e-4, 0.4: 0.05",
+            "Loading/Stop below": "0",
+            "Output/Interval": "10",
+        },
+    )
+    reference = history(settings)
+    for ranks in (2, 3):
+        with tempfile.TemporaryDirectory() as folder:
+            directory = os.path.join(folder, "run")
+            result = call(directory, settings, ranks)
+            assert result.returncode == 0, result.stdout[-2000:] + result.stderr
+            with open(os.path.join(directory, "history.csv")) as file:
+                table = [
+                    {k: float(v) for k, v in row.items()}
+                    for row in csv.DictReader(file)
+                ]
+        assert result.stdout.count("distributed anew") > 1, result.stdout
+        compare(reference, table, f"{ranks} processes")
+
+
+def run_pressure():
+    """Cracks under inner pressure (Sneddon): the volume of the crack, which the
+    pressure has opened with twice the elastic energy as work. The line in a box
+    of half-width 5, for which a fine grid gives 0.97 of the infinite body; the
+    penny, coarse, the same on one and two processes."""
+    folder = os.path.join(SOURCE, "tests/benchmarks")
+    line = {
+        "Background grid/Lower corner": "-3.25*h, -5-3*h",
+        "Background grid/Upper corner": "5+3*h, 5+3*h",
+        "Body/Shape": "box(0,-5, 5,5)",
+    }
+    penny = {
+        "Background grid/Cell size": "1/4",
+        "Background grid/Lower corner": "-2*h, -2*h, -2-2*h",
+        "Background grid/Upper corner": "2+2*h, 2+2*h, 2+2*h",
+        "Body/Shape": "box(0,0,-2, 2,2,2)",
+    }
+    exact = {"line": 2.98451302, "penny": 1.26666667}
+    for name, settings, ranks in (
+        ("line", line, 1),
+        ("penny", penny, 1),
+        ("penny", penny, 2),
+    ):
+        (row,) = history(
+            settings, ranks, os.path.join(folder, f"sneddon_{name}.prm")
+        )
+        volume = row["opened_volume"] / 1e-3
+        work = 1e-3 * row["opened_volume"] / (2 * row["elastic_energy"])
+        assert abs(work - 1.0) < 1e-3, (name, work)
+        error = volume / exact[name] - 1.0
+        assert abs(error) < (0.03 if name == "line" else 0.1), (name, error)
+        if ranks == 1:
+            alone = volume
+    assert abs(volume / alone - 1.0) < 1e-6, (volume, alone)
+
+
 # A specimen that is broken from the start, of which only the lower half is held.
 BROKEN = dict(
     SMALL,
@@ -323,6 +449,11 @@ def run_bad_input():
     refuse({"Loading/Conditions": "left.x = 0"}, ["left"])
     refuse({"Body/Shape": "box(0,0, 1"}, ["position"])
     refuse({"Staggered/Maximum passes": "0"}, ["Staggered/Maximum passes"])
+    refuse({"Loading/Tractions": "top.x = 1"}, ["top", "direction x"])
+    refuse({"Loading/Tractions": "slit.upper.pressure = 1"}, ["slit.upper"])
+    refuse({"Loading/Tractions": "top.p = 1"}, ["pressure"])
+    refuse({"Notch/Type": "none", "Notch/Faces": "true"}, ["Notch/Faces"])
+    refuse({"Notch/Tip margin": "h/"}, ["Notch/Tip margin"])
     refuse({}, ["nothing.prm"], arguments=("nothing.prm",))
 
     # Results are not overwritten unless one insists.

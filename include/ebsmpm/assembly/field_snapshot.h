@@ -58,6 +58,14 @@ namespace EBSMPM
     void
     reinit(const SplineSpace<dim> &space, const LA::FieldVector &field);
 
+    /**
+     * Say that the grid has been distributed anew, so that the functions of a
+     * process are no longer those that it remembers: from now on, transfer()
+     * asks the processes that had them, and is collective.
+     */
+    void
+    grid_has_moved();
+
     /** Return whether there is nothing to transfer. */
     bool
     empty() const;
@@ -75,6 +83,7 @@ namespace EBSMPM
     typename SplineSpace<dim>::FunctionTable functions;
     types::global_dof_index                  n_independent = 0;
     LA::FieldVector                          field;
+    bool                                     is_elsewhere = false;
   };
 
 

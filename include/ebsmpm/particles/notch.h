@@ -82,6 +82,15 @@ namespace EBSMPM
        * cell or two, so that all functions next to the plane are separable.
        */
       double damage_width;
+
+      /**
+       * How far behind the tip points count as broken. The opening of quadratic
+       * splines reaches beyond the last function that is separable: with zero,
+       * a slit acts as if it was longer by a quarter of a cell to one and a
+       * quarter, according to where its tip is in the cell; with 0.45 cells, by
+       * minus to plus half a cell.
+       */
+      double tip_margin = 0.;
     };
 
 

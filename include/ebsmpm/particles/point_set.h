@@ -112,6 +112,17 @@ namespace EBSMPM
     sort();
 
     /**
+     * To be called before, and after, the cells of a distributed grid are given
+     * to other processes: the points go with their cells. In between, there are
+     * no points that could be looked at. Collective.
+     */
+    void
+    prepare_for_repartitioning();
+
+    void
+    finish_repartitioning();
+
+    /**
      * Make this set a copy of another one on the same grid, for instance to
      * return to an earlier state. Collective.
      */

@@ -124,6 +124,17 @@ namespace EBSMPM
     void
     write_fields(const unsigned int n_step, const double load);
 
+    /**
+     * Distribute the grid anew if some process has more than its share of the
+     * points, see "Background grid/Largest imbalance".
+     */
+    void
+    balance(const unsigned int n_step);
+
+    /** The largest number of points of a process, over the mean. */
+    double
+    imbalance() const;
+
     /** The increment of the table at a load, and the end of its interval. */
     std::pair<double, double>
     table_entry(const double load) const;
@@ -151,6 +162,7 @@ namespace EBSMPM
     std::unique_ptr<VTUSeries>     grid_series;
     double                         peak_force = 0.;
     double                         last_force = 0.;
+    double                         last_imbalance = 1.;
 
     ConditionalOStream pcout;
     TimerOutput        timer;

@@ -31,6 +31,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -214,6 +215,15 @@ namespace EBSMPM
     void
     accept();
 
+    /**
+     * Distribute the grid anew between two steps: call @p move, which is to do
+     * this and to take the points along, and prepare for the next step. The
+     * fields that are only a guess for it (the damage, the last increment) go
+     * to the processes that need them now. Collective.
+     */
+    void
+    repartition(const std::function<void()> &move);
+
     /** The reactions of all boundaries to the last solution, by boundary id. */
     const std::map<types::boundary_id, Tensor<1, dim>> &
     reactions() const;
@@ -255,9 +265,12 @@ namespace EBSMPM
                 std::vector<double> &coefficients) const;
 
   private:
-    /** Number the points where they are, and collect their state. */
+    /**
+     * Number the points where they are, collect their state, and give the
+     * damage its values from before, as far as there are any.
+     */
     void
-    begin();
+    begin(const FieldSnapshot<dim> &old_damage);
 
     /** Build the space of the displacement for the current partition. */
     void
