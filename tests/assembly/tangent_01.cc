@@ -9,12 +9,14 @@
 
 // The tangent of DisplacementSystem is the derivative of its residual, and the
 // residual that of the energy: for all materials, with Nitsche terms in some
-// components, a deformed configuration at the start of the step, and damage.
+// components, tractions, a deformed configuration at the start of the step, and
+// damage.
 // The matrix of DamageSystem is the second derivative of the energy that it
 // minimises. Both are symmetric, and the same on any number of processes.
 
 #include <ebsmpm/materials/make_material.h>
 
+#include <ebsmpm/assembly/boundary_resultants.h>
 #include <ebsmpm/assembly/damage_system.h>
 
 #include <deal.II/distributed/tria.h>
@@ -79,6 +81,7 @@ disturb(BodyOnGrid<dim> &body)
         {
           body.boundary.displacement[q][d] = 0.1 * scatter(x, 20 + d);
           body.boundary.prescribed[q][d]   = 0.1 * scatter(x, 30 + d);
+          body.boundary.traction[q][d]     = 5. * scatter(x, 40 + d);
           // All components on one edge, none on another, one on the others.
           const unsigned int id = body.boundary.boundary_id[q];
           body.boundary.constrained[q][d] =
@@ -96,7 +99,11 @@ energy(const DisplacementSystem<dim> &system,
        const LA::FieldVector         &increment)
 {
   const auto energies = system.energies(body.state, body.boundary, increment);
-  return energies.elastic + energies.penalty;
+  return energies.elastic + energies.penalty -
+         BoundaryResultants::traction_work<dim>(
+           body.boundary,
+           system.update_points(body.boundary, increment),
+           MPI_COMM_WORLD);
 }
 
 
