@@ -55,7 +55,7 @@ def main():
     options = parser.parse_args()
 
     x, fields = plot_fields.read(options.points)
-    u, d = fields["displacement"], fields["damage"]
+    u, d = fields["displacement"], np.ravel(fields["damage"])
     X = x - u
     figure = plt.figure(figsize=(11, 5), dpi=130)
     pictures = (
