@@ -74,7 +74,7 @@ FREE_PENNY = {
 MARGIN = {"Notch/Tip margin": "0.45*h"}
 
 CASES = {
-    **{f"line-{n}-10": [line(n)] for n in (5, 10, 20, 40)},
+    **{f"line-{n}-10": [line(n)] for n in (5, 10, 20)},
     **{
         f"line-10-10-{shift}": [line(10, shift=shift), MARGIN]
         for shift in (0.0, 0.25, 0.5, 0.75)
