@@ -327,7 +327,7 @@ namespace EBSMPM
       {
         const Met &met            = ahead.at(entry.first);
         entry.second.damage_ahead = met.in_strip >= 0. ? met.in_strip :
-                                    met.around_centre >= 0. ?
+                                    dim == 3 && met.around_centre >= 0. ?
                                                          met.around_centre :
                                                          met.in_support;
         const bool broken = entry.second.damage_ahead > data.damage_threshold;
@@ -416,9 +416,9 @@ namespace EBSMPM
               .push_back(across / across.norm());
         });
 
-        // The outside counts only where nothing is intact ahead: else, a crack
-        // that runs along a free surface would find it diagonally ahead of its
-        // tip.
+        // In 3-D, the outside counts only where nothing is intact ahead: else,
+        // a crack that runs along a free surface would find it diagonally ahead
+        // of its tip.
         const auto any_opposite = [](const Tensor<1, dim>              &a,
                                      const std::vector<Tensor<1, dim>> &list,
                                      const double cosine) {
@@ -430,9 +430,9 @@ namespace EBSMPM
         };
         bool between = false;
         for (const auto &a : separable)
-          between =
-            between || any_opposite(a, separable, 0.7) ||
-            (any_opposite(a, outside, 0.7) && !any_opposite(a, intact, 0.3));
+          between = between || any_opposite(a, separable, 0.7) ||
+                    (any_opposite(a, outside, 0.7) &&
+                     (dim < 3 || !any_opposite(a, intact, 0.3)));
         if (between)
           closed.push_back(key);
       }

@@ -88,9 +88,9 @@ namespace EBSMPM
    *    weighted by volume: the side with more material owns it.
    * 5. A function is separable if a damage above $d_\text{cr}$ is met between
    *    $-h$ and $+2h$ from it along $\mathbf m_I$ (for a function outside of
-   *    the body, from the centre of the material in its support: it must not
-   *    be separable farther ahead of the tip than its neighbours inside). This
-   *    is decided per function, not
+   *    the body, anywhere in its support; in 3-D, from the centre of the
+   *    material in its support, so that it is not separable farther ahead of
+   *    the tip than its neighbours inside). This is decided per function, not
    *    per cell, so that the field of each side stays $C^{p-1}$ and the opening
    *    closes smoothly at the tip. It stays whole in spite of that where the
    *    ridge has arms in all directions, i.e., the ratio of variances is above
@@ -99,7 +99,7 @@ namespace EBSMPM
    *    the material around has settled sides, or there is a gap in it, there was
    *    a crack before, and it remains one: open lips look the same.
    * 6. Closure: a function on a ridge with $d>0.5$ between two separable ones,
-   *    or between one and a free boundary without anything intact ahead,
+   *    or between one and a free boundary (in 3-D, with nothing intact ahead),
    *    within three cells, is separable as well. Single functions left over would carry load for ever.
    * 7. A point with $\mathbf m_p\cdot\mathbf m_I<0$ reads the twin of the
    *    separable function $I$.

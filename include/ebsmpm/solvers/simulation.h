@@ -160,8 +160,8 @@ namespace EBSMPM
     std::unique_ptr<HistoryWriter> history;
     std::unique_ptr<VTUSeries>     point_series;
     std::unique_ptr<VTUSeries>     grid_series;
-    double                         peak_force = 0.;
-    double                         last_force = 0.;
+    double                         peak_force     = 0.;
+    double                         last_force     = 0.;
     double                         last_imbalance = 1.;
 
     ConditionalOStream pcout;
