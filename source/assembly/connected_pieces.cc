@@ -112,9 +112,15 @@ namespace EBSMPM
       {
         const double *sum = sums.data() + i * (dim + 2);
         moments[i].volume = sum[0];
+        if (sum[0] == 0.)
+          continue;
         for (unsigned int d = 0; d < dim; ++d)
-          moments[i].first[d] = sum[1 + d];
-        moments[i].second = sum[dim + 1];
+          moments[i].centre[d] = sum[1 + d] / sum[0];
+        // A single point has no extent; any unit of length will do for it.
+        const double square = sum[dim + 1] / sum[0];
+        const double spread = square - moments[i].centre.square();
+        if (spread > 1e-12 * square)
+          moments[i].radius = std::sqrt(spread);
       }
 
     piece_list.resize(merged.size());
@@ -234,18 +240,15 @@ namespace EBSMPM
     std::vector<double>    sums(moments.size() * size, 0.);
     for (unsigned int g = 0; g < boundary_groups.groups().size(); ++g)
       {
-        const auto          &group  = boundary_groups.groups()[g];
-        const unsigned int   piece  = piece_of_group[g];
-        const double         volume = moments[piece].volume;
-        const Tensor<1, dim> centre = moments[piece].first / volume;
-        const double         radius =
-          std::sqrt(moments[piece].second / volume - centre.norm_square());
-        double *sum = sums.data() + piece * size;
+        const auto        &group  = boundary_groups.groups()[g];
+        const unsigned int piece  = piece_of_group[g];
+        const Moments     &moment = moments[piece];
+        double            *sum    = sums.data() + piece * size;
         for (unsigned int k = group.begin; k < group.end; ++k)
           {
             const unsigned int q       = boundary_groups.point(k);
             const auto         motions = RigidMotions::at<dim>(
-              (boundary_points.location(q) - centre) / radius);
+              (boundary_points.location(q) - moment.centre) / moment.radius);
             for (unsigned int a = 0; a < dim; ++a)
               if (boundary.constrained[q][a])
                 for (unsigned int m = 0; m < n_motions; ++m)

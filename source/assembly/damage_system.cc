@@ -7,10 +7,11 @@
 //
 // -----------------------------------------------------------------------------
 
+#include <ebsmpm/splines/bspline_kernel.h>
+
 #include <ebsmpm/assembly/damage_system.h>
 #include <ebsmpm/assembly/dense_kernels.h>
 #include <ebsmpm/assembly/field_evaluation.h>
-#include <ebsmpm/splines/bspline_kernel.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -30,21 +31,27 @@ namespace EBSMPM
 
   template <int dim>
   bool
-  DamageSystem<dim>::reinit(const CellPoints<dim> &          points_,
-                            const CellPoints<dim> &          boundary_points_,
-                            const SplineSpace<dim> &         space,
+  DamageSystem<dim>::reinit(const CellPoints<dim>           &points_,
+                            const CellPoints<dim>           &boundary_points_,
+                            const SplineSpace<dim>          &space,
                             const AffineConstraints<double> &constraints,
-                            const std::vector<Pattern> &     patterns,
-                            const std::vector<Pattern> &boundary_patterns)
+                            const std::vector<Pattern>      &patterns,
+                            const std::vector<Pattern>      &boundary_patterns)
   {
-    points          = &points_;
+    bool changed = (spline_space != &space || n_changes != space.n_changes());
+    points       = &points_;
     boundary_points = &boundary_points_;
     spline_space    = &space;
+    n_changes       = space.n_changes();
 
-    functions = make_partitioner(space, constraints, 1);
-    material_groups.reinit(*points, patterns, space, constraints, *functions);
-    boundary_groups.reinit(
+    if (changed)
+      functions = make_partitioner(space, constraints, 1);
+    changed |=
+      material_groups.reinit(*points, patterns, space, constraints, *functions);
+    changed |= boundary_groups.reinit(
       *boundary_points, boundary_patterns, space, constraints, *functions);
+    if (Utilities::MPI::max(changed ? 1U : 0U, space.communicator()) == 0)
+      return false;
 
     std::vector<SystemMatrix::List> lists;
     for (const auto *groups : {&material_groups, &boundary_groups})
@@ -54,15 +61,14 @@ namespace EBSMPM
 
     const unsigned int n      = space.n_functions_per_cell();
     const unsigned int m      = std::max({n,
-                                     material_groups.max_n_functions(),
-                                     boundary_groups.max_n_functions()});
+                                          material_groups.max_n_functions(),
+                                          boundary_groups.max_n_functions()});
     const unsigned int stride = DenseKernels::padded(n);
     X.assign((dim + 1) * std::max(material_groups.max_n_points(), 1U) * stride,
              0.);
     product.resize(n * stride);
     local_vector.resize(n);
-    half.resize(n * m);
-    local_matrix.resize(m * m);
+    extension_product.initialize(n, m, 1);
     return is_new;
   }
 
@@ -88,10 +94,10 @@ namespace EBSMPM
 
   template <int dim>
   void
-  DamageSystem<dim>::assemble(const MaterialState<dim> & state,
-                              const BoundaryState<dim> & boundary,
+  DamageSystem<dim>::assemble(const MaterialState<dim>  &state,
+                              const BoundaryState<dim>  &boundary,
                               const std::vector<double> &boundary_driving,
-                              LA::FieldVector &          right_hand_side)
+                              LA::FieldVector           &right_hand_side)
   {
     const BSplineKernel<dim> kernel(spline_space->degree());
     const unsigned int       n      = kernel.n_functions();
@@ -191,12 +197,12 @@ namespace EBSMPM
 
   template <int dim>
   void
-  DamageSystem<dim>::distribute(const PointGroups<dim> &                groups,
+  DamageSystem<dim>::distribute(const PointGroups<dim>                 &groups,
                                 const typename PointGroups<dim>::Group &group,
                                 const unsigned int                      list,
-                                const double *                          matrix,
+                                const double                           *matrix,
                                 const unsigned int                      stride,
-                                const double *                          vector,
+                                const double                           *vector,
                                 LA::FieldVector &right_hand_side)
   {
     const unsigned int  n = groups.n_functions_per_cell();
@@ -205,34 +211,23 @@ namespace EBSMPM
 
     if (const double *E = groups.extension(group))
       {
-        std::fill_n(half.begin(), n * m, 0.);
-        for (unsigned int I = 0; I < n; ++I)
-          for (unsigned int J = 0; J < n; ++J)
-            for (unsigned int j = 0; j < m; ++j)
-              half[I * m + j] += matrix[I * stride + J] * E[J * m + j];
         for (unsigned int i = 0; i < m; ++i)
           {
             double sum = 0.;
             for (unsigned int I = 0; I < n; ++I)
               sum += E[I * m + i] * vector[I];
             right_hand_side.local_element(f[i]) += sum;
-            for (unsigned int j = 0; j < m; ++j)
-              {
-                double entry = 0.;
-                for (unsigned int I = 0; I < n; ++I)
-                  entry += E[I * m + i] * half[I * m + j];
-                local_matrix[i * m + j] = entry;
-              }
           }
+        system_matrix.add(list,
+                          extension_product.compute(E, m, matrix, stride),
+                          m);
       }
     else
-      for (unsigned int i = 0; i < n; ++i)
-        {
+      {
+        for (unsigned int i = 0; i < n; ++i)
           right_hand_side.local_element(f[i]) += vector[i];
-          for (unsigned int j = 0; j < n; ++j)
-            local_matrix[i * n + j] = matrix[i * stride + j];
-        }
-    system_matrix.add(list, local_matrix.data());
+        system_matrix.add(list, matrix, stride);
+      }
   }
 
 
@@ -249,21 +244,21 @@ namespace EBSMPM
   template <int dim>
   void
   DamageSystem<dim>::evaluate(const LA::FieldVector &damage,
-                              std::vector<double> &  at_points,
-                              std::vector<double> &  at_boundary_points) const
+                              std::vector<double>   &at_points,
+                              std::vector<double>   &at_boundary_points) const
   {
     damage.update_ghost_values();
-    const auto evaluate_at = [&](const CellPoints<dim> & cell_points,
+    const auto evaluate_at = [&](const CellPoints<dim>  &cell_points,
                                  const PointGroups<dim> &groups,
-                                 std::vector<double> &   values) {
+                                 std::vector<double>    &values) {
       values.resize(cell_points.n_points());
       evaluate_field<1>(cell_points,
                         groups,
                         spline_space->lattice(),
                         spline_space->degree(),
                         damage,
-                        [&](const unsigned int    q,
-                            const Tensor<1, 1> &  value,
+                        [&](const unsigned int  q,
+                            const Tensor<1, 1> &value,
                             const std::array<Tensor<1, dim>, 1> &) {
                           values[q] = value[0];
                         });
@@ -277,7 +272,7 @@ namespace EBSMPM
   template <int dim>
   double
   DamageSystem<dim>::crack_area(const MaterialState<dim> &state,
-                                const LA::FieldVector &   damage) const
+                                const LA::FieldVector    &damage) const
   {
     damage.update_ghost_values();
     double area = 0.;
@@ -287,7 +282,7 @@ namespace EBSMPM
                       spline_space->degree(),
                       damage,
                       [&](const unsigned int                   q,
-                          const Tensor<1, 1> &                 d,
+                          const Tensor<1, 1>                  &d,
                           const std::array<Tensor<1, dim>, 1> &gradient) {
                         const Tensor<1, dim> reference_gradient =
                           transpose(state.F[q]) * gradient[0];

@@ -44,17 +44,25 @@ namespace EBSMPM
                                   const std::vector<Pattern>      &patterns,
                                   const std::vector<Pattern> &boundary_patterns)
   {
-    points          = &points_;
+    bool changed = (spline_space != &space || n_changes != space.n_changes());
+    points       = &points_;
     boundary_points = &boundary_points_;
     spline_space    = &space;
+    n_changes       = space.n_changes();
     release_branches();
-    connected_pieces.clear();
 
-    functions = make_partitioner(space, constraints, 1);
-    unknowns  = make_partitioner(space, constraints, dim);
-    material_groups.reinit(*points, patterns, space, constraints, *functions);
-    boundary_groups.reinit(
+    if (changed)
+      {
+        functions = make_partitioner(space, constraints, 1);
+        unknowns  = make_partitioner(space, constraints, dim);
+      }
+    changed |=
+      material_groups.reinit(*points, patterns, space, constraints, *functions);
+    changed |= boundary_groups.reinit(
       *boundary_points, boundary_patterns, space, constraints, *functions);
+    if (Utilities::MPI::max(changed ? 1U : 0U, space.communicator()) == 0)
+      return false;
+    connected_pieces.clear();
 
     std::vector<SystemMatrix::List> lists;
     for (const auto *groups : {&material_groups, &boundary_groups})
@@ -62,15 +70,13 @@ namespace EBSMPM
         lists.push_back({groups->functions(group), group.n_functions});
     const bool is_new = tangent.reinit(*functions, dim, lists);
 
-    const double h = space.lattice().cell_extents(
-      points->cells().empty() ? 0 : points->cells()[0].level)[0];
-    mass_density = 1e-6 * material.nitsche_stiffness() / (h * h);
-
     local.initialize(space,
                      std::max(material_groups.max_n_functions(),
                               boundary_groups.max_n_functions()));
     elastic_terms.initialize(space.n_functions_per_cell(),
                              material_groups.max_n_points());
+    nitsche_terms.initialize(space.n_functions_per_cell(),
+                             boundary_groups.max_n_points());
     return is_new;
   }
 
@@ -81,6 +87,8 @@ namespace EBSMPM
   DisplacementSystem<dim>::hold_free_pieces(const MaterialState<dim> &state,
                                             const BoundaryState<dim> &boundary)
   {
+    if (!connected_pieces.pieces().empty())
+      return;
     connected_pieces.reinit(*points,
                             state.volume,
                             material_groups,
@@ -283,20 +291,23 @@ namespace EBSMPM
   DisplacementSystem<dim>::add_mass(const AssemblyTask        task,
                                     const MaterialState<dim> &state) const
   {
-    const unsigned int n = local.n_functions();
+    const unsigned int n       = local.n_functions();
+    const double       density = 1e-6 * material.nitsche_stiffness() /
+                           Utilities::fixed_power<2>(local.cell_extent());
     std::array<double, BSplineKernel<dim>::max_n_functions> B;
     for (unsigned int k = 0; k < local.n_points(); ++k)
       {
         local.values(k, B.data());
         const Tensor<1, dim> increment = local.value(B.data());
-        const double         mass = mass_density * state.volume[local.point(k)];
+        const double         mass      = density * state.volume[local.point(k)];
         for (unsigned int i = 0; i < n; ++i)
           local.residual[i] += mass * B[i] * increment;
         if (task != AssemblyTask::residual)
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int i = 0; i < n; ++i)
               for (unsigned int j = 0; j < n; ++j)
-                local.tangent_block(a, a)[i * n + j] += mass * B[i] * B[j];
+                local.tangent()[i * local.tangent_stride() +
+                                local.pair(a, a) * n + j] += mass * B[i] * B[j];
       }
   }
 
@@ -340,20 +351,13 @@ namespace EBSMPM
   template <int dim>
   void
   DisplacementSystem<dim>::driving_energy(
-    const MaterialState<dim> &state,
-    const LA::FieldVector    &increment,
-    std::vector<double>      &psi_degraded) const
+    const Update        &update,
+    std::vector<double> &psi_degraded) const
   {
-    increment.update_ghost_values();
-    psi_degraded.resize(points->n_points());
-    evaluate_material(state,
-                      increment,
-                      [&](const unsigned int q,
-                          const Tensor<1, dim> &,
-                          const Tensor<2, dim> &F) {
-                        double psi_intact;
-                        material.energies(F, psi_degraded[q], psi_intact);
-                      });
+    psi_degraded.resize(update.F.size());
+    double psi_intact;
+    for (unsigned int q = 0; q < update.F.size(); ++q)
+      material.energies(update.F[q], psi_degraded[q], psi_intact);
   }
 
 

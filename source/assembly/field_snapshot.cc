@@ -32,7 +32,7 @@ namespace EBSMPM
     if (original.size() == 0)
       return;
     is_elsewhere  = false;
-    functions     = space.functions();
+    functions     = space.share_functions();
     n_independent = space.n_independent();
     field.reinit(original, true);
     field = original;
@@ -82,7 +82,7 @@ namespace EBSMPM
         using Directory = FunctionDirectory<dim, Coefficients>;
         typename Directory::Table table;
         const auto                old_range = field.locally_owned_elements();
-        for (const auto &entry : functions)
+        for (const auto &entry : *functions)
           if (entry.second.index < n_independent &&
               old_range.is_element(n_components * entry.second.index))
             {
@@ -111,8 +111,8 @@ namespace EBSMPM
       {
         if (!owned.is_element(entry.second.index))
           continue;
-        const auto found = functions.find(entry.first);
-        if (found == functions.end() || found->second.index >= n_independent)
+        const auto found = functions->find(entry.first);
+        if (found == functions->end() || found->second.index >= n_independent)
           continue;
         for (unsigned int a = 0; a < n_components; ++a)
           target(n_components * entry.second.index + a) =

@@ -7,6 +7,7 @@
 //
 // -----------------------------------------------------------------------------
 
+#include <ebsmpm/assembly/dense_kernels.h>
 #include <ebsmpm/assembly/field_evaluation.h>
 #include <ebsmpm/assembly/local_system.h>
 
@@ -27,9 +28,9 @@ namespace EBSMPM
     const unsigned int m = std::max(n, max_n_functions);
     coefficients.resize(n);
     residual.resize(n);
-    tangent.resize(dim * dim * n * n);
-    half.resize(n * m);
-    matrix_of_unknowns.resize(dim * dim * m * m);
+    stride = DenseKernels::padded(n_pairs * n);
+    tangent_rows.resize(n * stride);
+    extension_product.initialize(n, m, n_pairs);
   }
 
 
@@ -66,7 +67,7 @@ namespace EBSMPM
   void
   LocalSystem<dim>::clear_tangent()
   {
-    std::fill(tangent.begin(), tangent.end(), 0.);
+    std::fill(tangent_rows.begin(), tangent_rows.end(), 0.);
   }
 
 
@@ -99,49 +100,15 @@ namespace EBSMPM
   LocalSystem<dim>::distribute_tangent(const unsigned int list,
                                        SystemMatrix      &matrix)
   {
-    const unsigned int m = group->n_functions;
-    const double      *E = groups->extension(*group);
-
-    // E^T K E for each pair of components, interleaved on the way out.
-    for (unsigned int a = 0; a < dim; ++a)
-      for (unsigned int b = 0; b < dim; ++b)
-        {
-          const double *K = tangent_block(a, b);
-          if (E == nullptr)
-            for (unsigned int I = 0; I < n; ++I)
-              for (unsigned int J = 0; J < n; ++J)
-                matrix_of_unknowns[(dim * I + a) * dim * n + dim * J + b] =
-                  K[I * n + J];
-          else
-            {
-              multiply_extension(K, E, m);
-              for (unsigned int i = 0; i < m; ++i)
-                for (unsigned int j = 0; j < m; ++j)
-                  {
-                    double sum = 0.;
-                    for (unsigned int I = 0; I < n; ++I)
-                      sum += E[I * m + i] * half[I * m + j];
-                    matrix_of_unknowns[(dim * i + a) * dim * m + dim * j + b] =
-                      sum;
-                  }
-            }
-        }
-    matrix.add(list, matrix_of_unknowns.data());
-  }
-
-
-
-  template <int dim>
-  void
-  LocalSystem<dim>::multiply_extension(const double      *K,
-                                       const double      *E,
-                                       const unsigned int m)
-  {
-    std::fill_n(half.begin(), n * m, 0.);
-    for (unsigned int I = 0; I < n; ++I)
-      for (unsigned int J = 0; J < n; ++J)
-        for (unsigned int j = 0; j < m; ++j)
-          half[I * m + j] += K[I * n + J] * E[J * m + j];
+    if (const double *E = groups->extension(*group))
+      {
+        const unsigned int m = group->n_functions;
+        matrix.add(list,
+                   extension_product.compute(E, m, tangent_rows.data(), stride),
+                   n_pairs * m);
+      }
+    else
+      matrix.add(list, tangent_rows.data(), stride);
   }
 
 

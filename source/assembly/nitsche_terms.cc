@@ -25,41 +25,43 @@ namespace EBSMPM
 
   template <int dim>
   void
+  NitscheTerms<dim>::initialize(const unsigned int n_functions,
+                                const unsigned int max_n_points)
+  {
+    max_points = max_n_points;
+    product.initialize(n_functions, max_n_points);
+    coefficients.resize(LocalSystem<dim>::n_pairs * (dim + 1) * (dim + 1) *
+                        max_n_points);
+  }
+
+
+
+  template <int dim>
+  void
   NitscheTerms<dim>::compute(const AssemblyTask               task,
                              const BoundaryState<dim>        &boundary,
                              const std::vector<EnergyBranch> &branches,
-                             LocalSystem<dim>                &local) const
+                             LocalSystem<dim>                &local)
   {
-    if (task != AssemblyTask::residual)
-      local.clear_tangent();
-
-    const unsigned int n = local.n_functions();
-    PointData          point;
+    PointData point;
     for (unsigned int k = 0; k < local.n_points(); ++k)
       {
+        const auto &constrained = boundary.constrained[local.point(k)];
         evaluate(boundary, branches, local, k, point);
-
-        Tensor<2, dim> wT;
+        std::array<Tensor<2, dim>, dim> T;
         for (unsigned int i = 0; i < dim; ++i)
-          if (boundary.constrained[local.point(k)][i])
-            {
-              const Tensor<2, dim> T = traction_derivative(point, i);
-              wT += point.w[i] * T;
-              add_component(task, i, T, point, local);
-            }
+          if (constrained[i])
+            T[i] = traction_derivative(point, i);
 
-        for (unsigned int I = 0; I < n; ++I)
-          for (unsigned int j = 0; j < dim; ++j)
-            for (unsigned int l = 0; l < dim; ++l)
-              local.residual[I][j] -= point.A0 * wT[j][l] * point.G[l * n + I];
-
-        const Tensor<1, dim> &traction = boundary.traction[local.point(k)];
-        for (unsigned int I = 0; I < n; ++I)
+        add_residual(point, constrained, T, local);
+        const Tensor<1, dim> traction = boundary.traction[local.point(k)];
+        for (unsigned int I = 0; I < local.n_functions(); ++I)
           local.residual[I] -= point.A0 * point.B[I] * traction;
-
-        if (task == AssemblyTask::tangent && point.w.norm_square() > 0.)
-          add_derivative_of_tangent(point, local);
+        if (task != AssemblyTask::residual)
+          set_coefficients(task, k, point, constrained, T);
       }
+    if (task != AssemblyTask::residual)
+      product.compute(local.n_points(), coefficients.data(), max_points, local);
   }
 
 
@@ -70,17 +72,29 @@ namespace EBSMPM
                               const std::vector<EnergyBranch> &branches,
                               const LocalSystem<dim>          &local,
                               const unsigned int               k,
-                              PointData                       &point) const
+                              PointData                       &point)
   {
-    const unsigned int q = local.point(k);
-    local.values_and_gradients(k, point.B.data(), point.G.data());
+    local.values_and_gradients(k,
+                               product.row(k, 0),
+                               product.row(k, 1),
+                               product.stride());
+    point.B = product.row(k, 0);
+    for (unsigned int d = 0; d < dim; ++d)
+      point.G[d] = product.row(k, 1 + d);
 
-    point.F_n = boundary.F[q];
-    point.F   = deformation<dim>(local.gradient(point.G.data()), point.F_n);
-    point.N   = boundary.normal[q];
-    point.w   = mismatch(boundary, q, local.value(point.B.data()));
-    point.A0  = boundary.area[q];
-    point.g   = degradation.value(boundary.damage[q]);
+    std::array<Tensor<1, dim>, dim> gradient;
+    for (unsigned int I = 0; I < local.n_functions(); ++I)
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          gradient[a][d] += local.coefficient(I)[a] * point.G[d][I];
+
+    const unsigned int q = local.point(k);
+    point.F_n            = boundary.F[q];
+    point.F              = deformation<dim>(gradient, point.F_n);
+    point.N              = boundary.normal[q];
+    point.w              = mismatch(boundary, q, local.value(point.B));
+    point.A0             = boundary.area[q];
+    point.g              = degradation.value(boundary.damage[q]);
     material.response(point.F, point.g, point.response, branch_of(branches, q));
     point.traction = point.response.P * point.N;
   }
@@ -104,89 +118,77 @@ namespace EBSMPM
 
   template <int dim>
   void
-  NitscheTerms<dim>::add_component(const AssemblyTask    task,
-                                   const unsigned int    i,
-                                   const Tensor<2, dim> &T,
-                                   const PointData      &point,
-                                   LocalSystem<dim>     &local) const
+  NitscheTerms<dim>::add_residual(const PointData             &point,
+                                  const std::array<bool, dim> &constrained,
+                                  const std::array<Tensor<2, dim>, dim> &T,
+                                  LocalSystem<dim> &local) const
   {
-    const unsigned int n  = local.n_functions();
-    const double       A0 = point.A0;
-    const auto        &B  = point.B;
-    for (unsigned int I = 0; I < n; ++I)
-      local.residual[I][i] +=
-        A0 * B[I] * (beta * point.w[i] - point.traction[i]);
-
-    if (task == AssemblyTask::residual)
-      return;
-
-    // t[k][J], a row per component.
-    std::array<std::array<double, BSplineKernel<dim>::max_n_functions>, dim> t;
-    for (unsigned int k = 0; k < dim; ++k)
-      for (unsigned int J = 0; J < n; ++J)
+    Tensor<1, dim> of_value;
+    Tensor<2, dim> of_gradient;
+    for (unsigned int i = 0; i < dim; ++i)
+      if (constrained[i])
         {
-          t[k][J] = 0.;
-          for (unsigned int l = 0; l < dim; ++l)
-            t[k][J] += T[k][l] * point.G[l * n + J];
+          of_value[i] = point.A0 * (beta * point.w[i] - point.traction[i]);
+          of_gradient -= point.A0 * point.w[i] * T[i];
         }
-
-    for (unsigned int I = 0; I < n; ++I)
+    for (unsigned int I = 0; I < local.n_functions(); ++I)
       {
-        const double penalty = A0 * beta * B[I];
-        const double weight  = A0 * B[I];
-        double      *row     = local.tangent_block(i, i) + I * n;
-        for (unsigned int J = 0; J < n; ++J)
-          row[J] += penalty * B[J];
-        for (unsigned int k = 0; k < dim; ++k)
-          {
-            row            = local.tangent_block(i, k) + I * n;
-            double *column = local.tangent_block(k, i) + I;
-            for (unsigned int J = 0; J < n; ++J)
-              row[J] -= weight * t[k][J];
-            for (unsigned int J = 0; J < n; ++J)
-              column[J * n] -= weight * t[k][J];
-          }
+        local.residual[I] += of_value * point.B[I];
+        for (unsigned int j = 0; j < dim; ++j)
+          for (unsigned int l = 0; l < dim; ++l)
+            local.residual[I][j] += of_gradient[j][l] * point.G[l][I];
       }
   }
 
 
 
   template <int dim>
-  void
-  NitscheTerms<dim>::add_derivative_of_tangent(const PointData  &point,
-                                               LocalSystem<dim> &local) const
+  double &
+  NitscheTerms<dim>::coefficient(const unsigned int pair,
+                                 const unsigned int j,
+                                 const unsigned int l,
+                                 const unsigned int point)
   {
-    const unsigned int              n = local.n_functions();
-    std::array<const double *, dim> rows;
-    for (unsigned int l = 0; l < dim; ++l)
-      rows[l] = point.G.data() + l * n;
-    const Tensor<4, dim> dA =
-      material.tangent_derivative(point.F,
-                                  point.g,
-                                  outer_product(point.w, point.N));
-    for (unsigned int j = 0; j < dim; ++j)
-      for (unsigned int k = 0; k < dim; ++k)
+    return coefficients[((pair * (dim + 1) + j) * (dim + 1) + l) * max_points +
+                        point];
+  }
+
+
+
+  template <int dim>
+  void
+  NitscheTerms<dim>::set_coefficients(const AssemblyTask           task,
+                                      const unsigned int           p,
+                                      const PointData             &point,
+                                      const std::array<bool, dim> &constrained,
+                                      const std::array<Tensor<2, dim>, dim> &T)
+  {
+    Tensor<4, dim> dA;
+    if (task == AssemblyTask::tangent && point.w.norm_square() > 0.)
+      dA = material.tangent_derivative(point.F,
+                                       point.g,
+                                       outer_product(point.w, point.N));
+
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int k = i; k < dim; ++k)
         {
-          Tensor<2, dim> c;
+          const unsigned int pair = LocalSystem<dim>::pair(i, k);
+          Tensor<2, dim>     c;
           for (unsigned int b = 0; b < dim; ++b)
             for (unsigned int d = 0; d < dim; ++d)
-              c[b][d] = point.A0 * dA[j][b][k][d];
+              c[b][d] = point.A0 * dA[i][b][k][d];
           c = point.F_n * c * transpose(point.F_n);
 
-          double *row = local.tangent_block(j, k);
-          for (unsigned int I = 0; I < n; ++I, row += n)
+          coefficient(pair, 0, 0, p) =
+            (i == k && constrained[i]) ? point.A0 * beta : 0.;
+          for (unsigned int j = 0; j < dim; ++j)
             {
-              Tensor<2, dim> Gc = c;
-              for (unsigned int m = 0; m < dim; ++m)
-                Gc[m] *= rows[m][I];
-              for (unsigned int J = 0; J < n; ++J)
-                {
-                  double entry = row[J];
-                  for (unsigned int m = 0; m < dim; ++m)
-                    for (unsigned int l = 0; l < dim; ++l)
-                      entry -= Gc[m][l] * rows[l][J];
-                  row[J] = entry;
-                }
+              coefficient(pair, 0, 1 + j, p) =
+                constrained[i] ? -point.A0 * T[i][k][j] : 0.;
+              coefficient(pair, 1 + j, 0, p) =
+                constrained[k] ? -point.A0 * T[k][i][j] : 0.;
+              for (unsigned int l = 0; l < dim; ++l)
+                coefficient(pair, 1 + j, 1 + l, p) = -c[j][l];
             }
         }
   }

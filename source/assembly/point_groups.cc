@@ -55,7 +55,7 @@ namespace EBSMPM
 
 
   template <int dim>
-  void
+  bool
   PointGroups<dim>::reinit(const CellPoints<dim> &            points,
                            const std::vector<Pattern> &       patterns,
                            const SplineSpace<dim> &           space,
@@ -64,6 +64,23 @@ namespace EBSMPM
   {
     Assert(patterns.empty() || patterns.size() == points.n_points(),
            ExcDimensionMismatch(patterns.size(), points.n_points()));
+
+    Origin new_origin;
+    new_origin.space     = &space;
+    new_origin.n_changes = space.n_changes();
+    new_origin.cells.reserve(points.cells().size());
+    new_origin.levels.reserve(points.cells().size());
+    new_origin.ends.reserve(points.cells().size());
+    for (const auto &cell : points.cells())
+      {
+        new_origin.cells.push_back(cell.index);
+        new_origin.levels.push_back(cell.level);
+        new_origin.ends.push_back(cell.end);
+      }
+    new_origin.patterns = patterns;
+    if (new_origin == origin)
+      return false;
+    std::swap(origin, new_origin);
 
     group_list.clear();
     point_numbers.clear();
@@ -165,6 +182,7 @@ namespace EBSMPM
             group_list.push_back(group);
           }
       }
+    return true;
   }
 
 

@@ -145,24 +145,20 @@ namespace EBSMPM
       return a;
     });
 
-    double       smallest = std::numeric_limits<double>::max();
-    unsigned int n_places = 0;
+    constexpr double none     = std::numeric_limits<double>::max();
+    double           smallest = none;
     for (const auto &entry : table)
       if (entry.second[0].volume > least_fraction &&
           entry.second[1].volume > least_fraction)
-        {
-          ++n_places;
-          smallest =
-            std::min(smallest,
-                     opening(entry.second, partition.side_of(entry.first)));
-        }
+        smallest =
+          std::min(smallest,
+                   opening(entry.second, partition.side_of(entry.first)));
 
     // A function on a border between processes counts more than once, which is
     // of no consequence for the smallest opening.
     CrackOpening result;
-    result.n_places = Utilities::MPI::max(n_places, space.communicator());
     result.smallest = Utilities::MPI::min(smallest, space.communicator());
-    if (result.n_places == 0)
+    if (result.smallest == none)
       result.smallest = 0.;
     return result;
   }

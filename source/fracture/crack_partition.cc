@@ -106,8 +106,19 @@ namespace EBSMPM
     const bool changed = make_patterns(points, labels, point_patterns);
     const bool boundary_changed =
       make_patterns(boundary_points, boundary_labels, boundary_point_patterns);
-    return Utilities::MPI::max(changed || boundary_changed ? 1U : 0U,
-                               spline_space->communicator()) > 0;
+
+    const auto reads_twins = [](const std::vector<Pattern> &patterns) {
+      return std::any_of(patterns.begin(),
+                         patterns.end(),
+                         [](const Pattern pattern) { return pattern != 0; });
+    };
+    const bool twins =
+      reads_twins(point_patterns) || reads_twins(boundary_point_patterns);
+    std::vector<unsigned int> anywhere = {changed || boundary_changed ? 1U : 0U,
+                                          twins ? 1U : 0U};
+    Utilities::MPI::max(anywhere, spline_space->communicator(), anywhere);
+    any_twin = (anywhere[1] > 0);
+    return anywhere[0] > 0;
   }
 
 
@@ -495,6 +506,15 @@ namespace EBSMPM
   CrackPartition<dim>::patterns() const
   {
     return point_patterns;
+  }
+
+
+
+  template <int dim>
+  bool
+  CrackPartition<dim>::is_open() const
+  {
+    return any_twin;
   }
 
 

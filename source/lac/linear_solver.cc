@@ -21,7 +21,10 @@
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <type_traits>
 
 namespace EBSMPM
 {
@@ -128,9 +131,29 @@ namespace EBSMPM
 
 
   void
+  LinearSolver::renumber(const LA::FieldVector &former_rows)
+  {
+    former_row_numbers.reinit(former_rows);
+    former_row_numbers = former_rows;
+    renumbered_preconditioner.reset();
+    is_renumbered = true;
+  }
+
+
+
+  const LA::FieldVector &
+  LinearSolver::former_rows() const
+  {
+    return former_row_numbers;
+  }
+
+
+
+  void
   LinearSolver::clear()
   {
     invalidate();
+    renumbered_preconditioner.reset();
     preconditioner.reset();
   }
 
@@ -188,6 +211,34 @@ namespace EBSMPM
     is_indefinite  = preconditioner->is_indefinite();
     rows           = A.locally_owned_range_indices();
     is_initialized = true;
+    n_solves       = 0;
+    surplus        = 0;
+
+    renumbered_preconditioner.reset();
+    is_renumbered = false;
+    if (former_row_numbers.size() == A.m())
+      std::iota(former_row_numbers.begin(),
+                former_row_numbers.end(),
+                rows.n_elements() > 0 ? 1. + rows.nth_index_in_set(0) : 1.);
+    else
+      former_row_numbers.reinit(0);
+  }
+
+
+
+  bool
+  LinearSolver::can_be_reused(const LA::SparseMatrix &A) const
+  {
+    bool fits = is_initialized;
+    if (is_renumbered)
+      fits = fits && former_row_numbers.size() == A.m() &&
+             former_row_numbers.locally_owned_size() == A.local_size();
+    else
+      fits = fits && rows.size() == A.m() &&
+             rows == A.locally_owned_range_indices();
+    return dealii::Utilities::MPI::min(fits ? 1 : 0,
+                                       A.get_mpi_communicator()) == 1 &&
+           choose_method(A) == method;
   }
 
 
@@ -203,22 +254,29 @@ namespace EBSMPM
   {
     const ObservedOperator<LA::SparseMatrix> matrix(
       A, !use_gmres, Observation::indefinite_matrix);
-    const ObservedOperator<ReusablePreconditioner> inverse(
-      *preconditioner, !use_gmres, Observation::indefinite_preconditioner);
 
     SolverControl control(max_iterations, tolerance, false, false);
     Outcome       outcome = Outcome::converged;
+
+    const auto solve_with = [&](const auto &P) {
+      const ObservedOperator<std::decay_t<decltype(P)>> inverse(
+        P, !use_gmres, Observation::indefinite_preconditioner);
+      if (use_gmres)
+        {
+          // Right preconditioning: the residual that is tested is the true
+          // one.
+          const SolverGMRES<LA::Vector>::AdditionalData data(52, true);
+          SolverGMRES<LA::Vector>(control, data).solve(matrix, x, b, inverse);
+        }
+      else
+        SolverCG<LA::Vector>(control).solve(matrix, x, b, inverse);
+    };
     try
       {
-        if (use_gmres)
-          {
-            // Right preconditioning: the residual that is tested is the true
-            // one.
-            const SolverGMRES<LA::Vector>::AdditionalData data(52, true);
-            SolverGMRES<LA::Vector>(control, data).solve(matrix, x, b, inverse);
-          }
+        if (renumbered_preconditioner)
+          solve_with(*renumbered_preconditioner);
         else
-          SolverCG<LA::Vector>(control).solve(matrix, x, b, inverse);
+          solve_with(*preconditioner);
       }
     catch (const SolverControl::NoConvergence &)
       {
@@ -283,14 +341,14 @@ namespace EBSMPM
 
     // First with what is there, if it fits. If it belongs to an indefinite
     // matrix, it is no preconditioner for conjugate gradients.
-    const bool same_rows =
-      dealii::Utilities::MPI::min((is_initialized && rows.size() == A.m() &&
-                                   rows == A.locally_owned_range_indices()) ?
-                                    1 :
-                                    0,
-                                  A.get_mpi_communicator()) == 1;
-    if (same_rows && choose_method(A) == method)
+    if (can_be_reused(A))
       {
+        if (is_renumbered && !renumbered_preconditioner)
+          renumbered_preconditioner =
+            std::make_unique<RenumberedPreconditioner>(*preconditioner,
+                                                       rows,
+                                                       former_row_numbers,
+                                                       A);
         const Outcome outcome =
           iterate(A,
                   x,
@@ -304,6 +362,16 @@ namespace EBSMPM
         if (outcome == Outcome::converged)
           {
             report.indefinite = is_indefinite;
+
+            // Was this one too many?
+            const unsigned int excess =
+              std::max(report.iterations, iterations_when_new) -
+              iterations_when_new;
+            ++n_solves;
+            surplus += excess;
+            if (n_solves * excess >
+                additional_data.refresh_iterations + surplus)
+              invalidate();
             return report;
           }
         x = start;

@@ -19,6 +19,7 @@
 #include <Epetra_MpiComm.h>
 #include <Epetra_Vector.h>
 
+#include <algorithm>
 #include <vector>
 
 // Trilinos' interface to MUMPS includes the same header, so that whoever has
@@ -26,227 +27,361 @@
 #if __has_include(<dmumps_c.h>) && !defined(EBSMPM_WITHOUT_MUMPS)
 #  include <dmumps_c.h>
 #  define EBSMPM_HAVE_MUMPS
+#  ifdef EBSMPM_HAVE_SMUMPS
+#    include <smumps_c.h>
+#  endif
 #endif
 
 namespace EBSMPM
 {
+#ifdef EBSMPM_HAVE_MUMPS
+
   namespace
   {
     // Entries per row, on average, up to which the problem counts as a
     // two-dimensional one.
     constexpr double two_dimensional_row_length = 100.;
 
-    // A pivot is considered to vanish if its size, relative to the norm of the
-    // scaled matrix, is below this number. The pivots of a loose body are
-    // round-off, which grows with the number of unknowns, up to 1e-11 for
-    // 33,000. A body that is held by a strip of a millionth of its stiffness
-    // has none below 1e-8.
-    constexpr double null_pivot_tolerance = 1e-10;
+    // What MUMPS offers for a type of numbers. A pivot is considered to vanish
+    // if its size, relative to the norm of the scaled matrix, is below the
+    // tolerance.
+    template <typename Number>
+    struct Mumps;
+
+    // The pivots of a loose body are round-off, which grows with the number of
+    // unknowns, up to 1e-11 for 33,000. A body that is held by a strip of a
+    // millionth of its stiffness has none below 1e-8.
+    template <>
+    struct Mumps<double>
+    {
+      using Structure                              = DMUMPS_STRUC_C;
+      static constexpr double null_pivot_tolerance = 1e-10;
+
+      static void
+      call(Structure &structure)
+      {
+        dmumps_c(&structure);
+      }
+    };
+
+#  ifdef EBSMPM_HAVE_SMUMPS
+    // Here, a small pivot only means that we had better look twice.
+    template <>
+    struct Mumps<float>
+    {
+      using Structure                              = SMUMPS_STRUC_C;
+      static constexpr double null_pivot_tolerance = 1e-5;
+
+      static void
+      call(Structure &structure)
+      {
+        smumps_c(&structure);
+      }
+    };
+#  endif
+
+
+
+    /**
+     * The upper triangle of a matrix, in coordinates counted from one.
+     */
+    struct Entries
+    {
+      explicit Entries(const Epetra_CrsMatrix &A)
+      {
+        rows.reserve(A.NumMyNonzeros() / 2 + A.NumMyRows());
+        columns.reserve(rows.capacity());
+        values.reserve(rows.capacity());
+        for (int i = 0; i < A.NumMyRows(); ++i)
+          {
+            int     n_entries;
+            double *row_values;
+            int    *row_columns;
+            A.ExtractMyRowView(i, n_entries, row_values, row_columns);
+            const int row = A.GRID(i);
+            for (int k = 0; k < n_entries; ++k)
+              {
+                const int column = A.GCID(row_columns[k]);
+                if (column >= row)
+                  {
+                    rows.push_back(row + 1);
+                    columns.push_back(column + 1);
+                    values.push_back(row_values[k]);
+                  }
+              }
+          }
+      }
+
+      std::vector<int>    rows;
+      std::vector<int>    columns;
+      std::vector<double> values;
+    };
+
+
+
+    /**
+     * A factorisation in one precision.
+     */
+    template <typename Number>
+    class Factorisation
+    {
+    public:
+      Factorisation(const Epetra_CrsMatrix &A, const Entries &entries)
+        : row_map(A.RowMap())
+        , communicator(
+            dynamic_cast<const Epetra_MpiComm &>(A.RowMap().Comm()).Comm())
+        , rows(entries.rows)
+        , columns(entries.columns)
+      {
+        mumps.comm_fortran = MPI_Comm_c2f(communicator);
+        mumps.par          = 1; // the first process works, too
+        mumps.sym          = 2; // symmetric, perhaps indefinite
+        call(-1);
+
+        icntl(1) = icntl(2) = icntl(3) = -1; // no output
+        icntl(4)                       = 0;
+        icntl(14)                      = 30; // per cent of additional memory
+        icntl(18)                      = 3;  // distributed matrix
+        icntl(20)                      = 10; // distributed right hand side
+        icntl(21)                      = 1;  // distributed solution
+        icntl(24)                      = 1;  // look for null pivots
+        mumps.cntl[2]                  = Mumps<Number>::null_pivot_tolerance;
+
+        // Approximate minimum fill wins in two dimensions: 20 % less work than
+        // the automatic choice, and half of its time for the analysis.
+        const double row_length =
+          A.NumGlobalNonzeros() / std::max(1., 1. * A.NumGlobalRows());
+        if (row_length < two_dimensional_row_length)
+          icntl(7) = 2;
+
+        mumps.n       = A.NumGlobalRows();
+        mumps.nnz_loc = rows.size();
+        mumps.irn_loc = rows.data();
+        mumps.jcn_loc = columns.data();
+        call(1);
+      }
+
+      ~Factorisation()
+      {
+        mumps.job = -2;
+        Mumps<Number>::call(mumps);
+      }
+
+      /**
+       * Return whether the entries of a matrix are where those of the first one
+       * were, on all processes.
+       */
+      bool
+      fits(const Epetra_CrsMatrix &A, const Entries &entries) const
+      {
+        if (!A.RowMap().SameAs(row_map))
+          return false;
+        const bool same = (entries.rows == rows && entries.columns == columns);
+        return dealii::Utilities::MPI::min(same ? 1 : 0, communicator) == 1;
+      }
+
+      void
+      factorise(const Entries &entries)
+      {
+        values.assign(entries.values.begin(), entries.values.end());
+        mumps.a_loc = values.data();
+        mumps.job   = 2;
+        Mumps<Number>::call(mumps);
+        // More memory than expected: MUMPS leaves it to us to ask for it.
+        while ((mumps.infog[0] == -8 || mumps.infog[0] == -9) &&
+               icntl(14) < 1000)
+          {
+            icntl(14) *= 3;
+            Mumps<Number>::call(mumps);
+          }
+        check();
+        AssertThrow(n_null_pivots() == 0,
+                    ExcSolverFailure("The matrix is singular: MUMPS found " +
+                                     std::to_string(n_null_pivots()) +
+                                     " vanishing pivots."));
+
+        // Where MUMPS has put the unknowns is known after the first solution
+        // with this factorisation.
+        exporter.reset();
+        solution.resize(std::max(1, mumps.info[22]));
+        solution_rows.resize(solution.size());
+        mumps.sol_loc  = solution.data();
+        mumps.isol_loc = solution_rows.data();
+        mumps.lsol_loc = solution.size();
+        n_solution     = mumps.info[22];
+
+        right_hand_side.resize(std::max(1, row_map.NumMyElements()));
+        right_hand_side_rows.assign(right_hand_side.size(), 0);
+        for (int i = 0; i < row_map.NumMyElements(); ++i)
+          right_hand_side_rows[i] = row_map.GID(i) + 1;
+        mumps.nrhs     = 1;
+        mumps.nloc_rhs = row_map.NumMyElements();
+        mumps.lrhs_loc = right_hand_side.size();
+        mumps.rhs_loc  = right_hand_side.data();
+        mumps.irhs_loc = right_hand_side_rows.data();
+      }
+
+      void
+      solve(Epetra_MultiVector &dst, const Epetra_MultiVector &src)
+      {
+        std::copy(src[0], src[0] + src.MyLength(), right_hand_side.begin());
+        call(3);
+        if (!exporter)
+          {
+            std::vector<int> indices(n_solution);
+            for (int i = 0; i < n_solution; ++i)
+              indices[i] = solution_rows[i] - 1;
+            solution_map = std::make_unique<Epetra_Map>(
+              -1, n_solution, indices.data(), 0, row_map.Comm());
+            exporter = std::make_unique<Epetra_Export>(*solution_map, row_map);
+            exported = std::make_unique<Epetra_Vector>(*solution_map, false);
+          }
+        std::copy(solution.begin(),
+                  solution.begin() + n_solution,
+                  exported->Values());
+        dst.Export(*exported, *exporter, Insert);
+      }
+
+      int
+      n_negative_pivots() const
+      {
+        return mumps.infog[11];
+      }
+
+    private:
+      int
+      n_null_pivots() const
+      {
+        return mumps.infog[27];
+      }
+
+      /**
+       * Return a parameter of MUMPS by the number it has in the manual.
+       */
+      int &
+      icntl(const unsigned int i)
+      {
+        return mumps.icntl[i - 1];
+      }
+
+      void
+      call(const int job)
+      {
+        mumps.job = job;
+        Mumps<Number>::call(mumps);
+        check();
+      }
+
+      /**
+       * Raise an exception if MUMPS reports an error, which it does on all
+       * processes.
+       */
+      void
+      check() const
+      {
+        AssertThrow(
+          mumps.infog[0] != -10 && mumps.infog[0] != -6,
+          ExcSolverFailure(
+            "The matrix is singular: MUMPS found a vanishing pivot."));
+        AssertThrow(mumps.infog[0] >= 0,
+                    ExcSolverFailure("MUMPS failed with the error " +
+                                     std::to_string(mumps.infog[0]) +
+                                     ", additional information " +
+                                     std::to_string(mumps.infog[1]) + "."));
+      }
+
+      typename Mumps<Number>::Structure mumps = {};
+
+      const Epetra_Map row_map;
+      const MPI_Comm   communicator;
+
+      std::vector<int>    rows;
+      std::vector<int>    columns;
+      std::vector<Number> values;
+
+      std::vector<Number> right_hand_side;
+      std::vector<int>    right_hand_side_rows;
+
+      int                            n_solution = 0;
+      std::vector<Number>            solution;
+      std::vector<int>               solution_rows;
+      std::unique_ptr<Epetra_Map>    solution_map;
+      std::unique_ptr<Epetra_Export> exporter;
+      std::unique_ptr<Epetra_Vector> exported;
+    };
+
+
+
+    template <typename Number>
+    void
+    factorise(std::unique_ptr<Factorisation<Number>> &factorisation,
+              const Epetra_CrsMatrix                 &A,
+              const Entries                          &entries)
+    {
+      if (!factorisation || !factorisation->fits(A, entries))
+        {
+          factorisation.reset(); // releases its memory first
+          factorisation = std::make_unique<Factorisation<Number>>(A, entries);
+        }
+      factorisation->factorise(entries);
+    }
   } // namespace
 
 
 
-#ifdef EBSMPM_HAVE_MUMPS
-
+  /**
+   * The factorisation that is in use, one of two.
+   */
   struct MumpsFactorization::Data
   {
-    explicit Data(const Epetra_CrsMatrix &A)
-      : row_map(A.RowMap())
-      , communicator(
-          dynamic_cast<const Epetra_MpiComm &>(A.RowMap().Comm()).Comm())
-    {
-      extract_entries(A, rows, columns);
-
-      mumps.comm_fortran = MPI_Comm_c2f(communicator);
-      mumps.par          = 1; // the first process works, too
-      mumps.sym          = 2; // symmetric, perhaps indefinite
-      call(-1);
-
-      icntl(1) = icntl(2) = icntl(3) = -1; // no output
-      icntl(4)                       = 0;
-      icntl(14)                      = 30; // per cent of additional memory
-      icntl(18)                      = 3;  // distributed matrix
-      icntl(20)                      = 10; // distributed right hand side
-      icntl(21)                      = 1;  // distributed solution
-      icntl(24)                      = 1;  // look for null pivots
-      mumps.cntl[2]                  = null_pivot_tolerance;
-
-      // Approximate minimum fill wins in two dimensions: 20 % less work than
-      // the automatic choice, and half of its time for the analysis.
-      const double row_length =
-        A.NumGlobalNonzeros() / std::max(1., 1. * A.NumGlobalRows());
-      if (row_length < two_dimensional_row_length)
-        icntl(7) = 2;
-
-      mumps.n       = A.NumGlobalRows();
-      mumps.nnz_loc = rows.size();
-      mumps.irn_loc = rows.data();
-      mumps.jcn_loc = columns.data();
-      call(1);
-    }
-
-    ~Data()
-    {
-      mumps.job = -2;
-      dmumps_c(&mumps);
-    }
-
-    /**
-     * Write indices of the entries of the upper triangle, counted from one, and
-     * their values into the given vectors.
-     */
     void
-    extract_entries(const Epetra_CrsMatrix &A,
-                    std::vector<int>       &rows,
-                    std::vector<int>       &columns)
+    initialize(const Epetra_CrsMatrix &A)
     {
-      rows.clear();
-      columns.clear();
-      values.clear();
-      for (int i = 0; i < A.NumMyRows(); ++i)
+      const Entries entries(A);
+#  ifdef EBSMPM_HAVE_SMUMPS
+      // Once single precision was not good enough, it will not be in the next
+      // Newton step either.
+      if (!in_double_precision || !in_double_precision->fits(A, entries))
         {
-          int     n_entries;
-          double *row_values;
-          int    *row_columns;
-          A.ExtractMyRowView(i, n_entries, row_values, row_columns);
-          const int row = A.GRID(i);
-          for (int k = 0; k < n_entries; ++k)
+          in_double_precision.reset();
+          try
             {
-              const int column = A.GCID(row_columns[k]);
-              if (column >= row)
-                {
-                  rows.push_back(row + 1);
-                  columns.push_back(column + 1);
-                  values.push_back(row_values[k]);
-                }
+              factorise(in_single_precision, A, entries);
+              if (in_single_precision->n_negative_pivots() == 0)
+                return;
             }
+          catch (const ExcSolverFailure &)
+            {}
+          in_single_precision.reset();
         }
-    }
-
-    /**
-     * Read the values of a matrix. Return whether its entries are in the same
-     * places, on all processes.
-     */
-    bool
-    read(const Epetra_CrsMatrix &A)
-    {
-      if (!A.RowMap().SameAs(row_map))
-        return false;
-
-      std::vector<int> new_rows, new_columns;
-      extract_entries(A, new_rows, new_columns);
-      const bool same = (new_rows == rows && new_columns == columns);
-      return dealii::Utilities::MPI::min(same ? 1 : 0, communicator) == 1;
-    }
-
-    void
-    factorise()
-    {
-      mumps.a_loc = values.data();
-      mumps.job   = 2;
-      dmumps_c(&mumps);
-      // More memory than expected: MUMPS leaves it to us to ask for it.
-      while ((mumps.infog[0] == -8 || mumps.infog[0] == -9) && icntl(14) < 1000)
-        {
-          icntl(14) *= 3;
-          dmumps_c(&mumps);
-        }
-      check();
-      AssertThrow(mumps.infog[27] == 0,
-                  ExcSolverFailure("The matrix is singular: MUMPS found " +
-                                   std::to_string(mumps.infog[27]) +
-                                   " vanishing pivots."));
-
-      // Where MUMPS has put the unknowns is known after the first solution with
-      // this factorisation.
-      exporter.reset();
-      solution.resize(std::max(1, mumps.info[22]));
-      solution_rows.resize(solution.size());
-      mumps.sol_loc  = solution.data();
-      mumps.isol_loc = solution_rows.data();
-      mumps.lsol_loc = solution.size();
-      n_solution     = mumps.info[22];
-
-      right_hand_side.resize(std::max(1, row_map.NumMyElements()));
-      right_hand_side_rows.assign(right_hand_side.size(), 0);
-      for (int i = 0; i < row_map.NumMyElements(); ++i)
-        right_hand_side_rows[i] = row_map.GID(i) + 1;
-      mumps.nrhs     = 1;
-      mumps.nloc_rhs = row_map.NumMyElements();
-      mumps.lrhs_loc = right_hand_side.size();
-      mumps.rhs_loc  = right_hand_side.data();
-      mumps.irhs_loc = right_hand_side_rows.data();
+#  endif
+      factorise(in_double_precision, A, entries);
     }
 
     void
     solve(Epetra_MultiVector &dst, const Epetra_MultiVector &src)
     {
-      std::copy(src[0], src[0] + src.MyLength(), right_hand_side.begin());
-      call(3);
-      if (!exporter)
+#  ifdef EBSMPM_HAVE_SMUMPS
+      if (in_single_precision)
         {
-          std::vector<int> indices(n_solution);
-          for (int i = 0; i < n_solution; ++i)
-            indices[i] = solution_rows[i] - 1;
-          solution_map = std::make_unique<Epetra_Map>(
-            -1, n_solution, indices.data(), 0, row_map.Comm());
-          exporter = std::make_unique<Epetra_Export>(*solution_map, row_map);
+          in_single_precision->solve(dst, src);
+          return;
         }
-      const Epetra_Vector view(View, *solution_map, solution.data());
-      dst.Export(view, *exporter, Insert);
+#  endif
+      in_double_precision->solve(dst, src);
     }
 
-    /**
-     * Return a parameter of MUMPS by the number it has in the manual.
-     */
-    int &
-    icntl(const unsigned int i)
+    bool
+    is_indefinite() const
     {
-      return mumps.icntl[i - 1];
+      return in_double_precision &&
+             in_double_precision->n_negative_pivots() > 0;
     }
 
-    void
-    call(const int job)
-    {
-      mumps.job = job;
-      dmumps_c(&mumps);
-      check();
-    }
-
-    /**
-     * Raise an exception if MUMPS reports an error, which it does on all
-     * processes.
-     */
-    void
-    check() const
-    {
-      AssertThrow(mumps.infog[0] != -10 && mumps.infog[0] != -6,
-                  ExcSolverFailure(
-                    "The matrix is singular: MUMPS found a vanishing pivot."));
-      AssertThrow(mumps.infog[0] >= 0,
-                  ExcSolverFailure("MUMPS failed with the error " +
-                                   std::to_string(mumps.infog[0]) +
-                                   ", additional information " +
-                                   std::to_string(mumps.infog[1]) + "."));
-    }
-
-    DMUMPS_STRUC_C mumps = {};
-
-    const Epetra_Map row_map;
-    const MPI_Comm   communicator;
-
-    std::vector<int>    rows;
-    std::vector<int>    columns;
-    std::vector<double> values;
-
-    std::vector<double> right_hand_side;
-    std::vector<int>    right_hand_side_rows;
-
-    int                            n_solution = 0;
-    std::vector<double>            solution;
-    std::vector<int>               solution_rows;
-    std::unique_ptr<Epetra_Map>    solution_map;
-    std::unique_ptr<Epetra_Export> exporter;
+#  ifdef EBSMPM_HAVE_SMUMPS
+    std::unique_ptr<Factorisation<float>> in_single_precision;
+#  endif
+    std::unique_ptr<Factorisation<double>> in_double_precision;
   };
 
 
@@ -254,13 +389,9 @@ namespace EBSMPM
   void
   MumpsFactorization::initialize(const LA::SparseMatrix &A)
   {
-    const Epetra_CrsMatrix &matrix = A.trilinos_matrix();
-    if (!data || !data->read(matrix))
-      {
-        data.reset(); // releases its memory first
-        data = std::make_unique<Data>(matrix);
-      }
-    data->factorise();
+    if (!data)
+      data = std::make_unique<Data>();
+    data->initialize(A.trilinos_matrix());
   }
 
 
@@ -276,7 +407,7 @@ namespace EBSMPM
   bool
   MumpsFactorization::is_indefinite() const
   {
-    return data->mumps.infog[11] > 0;
+    return data->is_indefinite();
   }
 
 

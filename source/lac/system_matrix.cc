@@ -16,6 +16,7 @@
 #include <Epetra_Map.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace EBSMPM
@@ -79,7 +80,7 @@ namespace EBSMPM
           occurrences[next[lists[l].begin[i]]++] = {l, i};
     }
     const auto for_each_occurrence = [&](const unsigned int function,
-                                         const auto &       visit) {
+                                         const auto        &visit) {
       for (unsigned int k = occurrence_begins[function];
            k < occurrence_begins[function + 1];
            ++k)
@@ -90,12 +91,12 @@ namespace EBSMPM
     const IndexSet &owned    = functions.locally_owned_range();
     IndexSet        relevant = owned;
     relevant.add_indices(functions.ghost_indices());
-    DynamicSparsityPattern               coupling(functions.size(),
+    DynamicSparsityPattern                            coupling(functions.size(),
                                     functions.size(),
                                     relevant);
-    std::vector<types::global_dof_index> row;
-    std::vector<unsigned int>            seen_by(n_known,
-                                      numbers::invalid_unsigned_int);
+    std::vector<std::vector<types::global_dof_index>> ghost_rows;
+    std::vector<types::global_dof_index>              row;
+    std::vector<unsigned int> seen_by(n_known, numbers::invalid_unsigned_int);
     for (unsigned int f = 0; f < n_known; ++f)
       {
         row.clear();
@@ -109,6 +110,8 @@ namespace EBSMPM
         });
         std::sort(row.begin(), row.end());
         coupling.add_entries(global_functions[f], row.begin(), row.end(), true);
+        if (f >= n_owned)
+          ghost_rows.push_back(row);
       }
     SparsityTools::distribute_sparsity_pattern(coupling,
                                                owned,
@@ -151,7 +154,7 @@ namespace EBSMPM
         column_of[nc * i + c] =
           epetra.LCID(static_cast<int>(nc * global_functions[i] + c));
 
-    // The places of a list, row by row; those in rows of others are not used.
+    // The places of a list, row by row, counted from the begin of the row.
     place_begins.assign(1, 0);
     for (const auto &list : lists)
       place_begins.push_back(place_begins.back() + list.size * list.size);
@@ -185,7 +188,92 @@ namespace EBSMPM
             }
         });
       }
+    // In rows of others, the components of a function are neighbours anyway.
+    std::vector<int> local_place(n_known);
+    for (unsigned int f = n_owned; f < n_known; ++f)
+      {
+        const auto &ghost_row = ghost_rows[f - n_owned];
+        for (unsigned int k = 0; k < ghost_row.size(); ++k)
+          local_place[functions.global_to_local(ghost_row[k])] = nc * k;
+        for_each_occurrence(f, [&](const unsigned int l, const unsigned int i) {
+          int *place = places.data() + place_begins[l] + i * lists[l].size;
+          for (unsigned int j = 0; j < lists[l].size; ++j)
+            place[j] = local_place[lists[l].begin[j]];
+        });
+      }
+    set_up_messages(functions, ghost_rows);
     return true;
+  }
+
+
+
+  void
+  SystemMatrix::set_up_messages(
+    const Utilities::MPI::Partitioner                       &functions,
+    const std::vector<std::vector<types::global_dof_index>> &ghost_rows)
+  {
+    const unsigned int nc = n_components;
+
+    // The ghosts of a process follow each other.
+    ghost_row_begins.assign(1, 0);
+    outgoing.clear();
+    std::map<unsigned int, std::vector<types::global_dof_index>> patterns;
+    unsigned int                                                 g = 0;
+    for (const auto &target : functions.ghost_targets())
+      {
+        const std::size_t begin   = ghost_row_begins.back();
+        auto             &pattern = patterns[target.first];
+        for (unsigned int k = 0; k < target.second; ++k, ++g)
+          {
+            pattern.push_back(global_functions[n_owned + g]);
+            pattern.push_back(ghost_rows[g].size());
+            pattern.insert(pattern.end(),
+                           ghost_rows[g].begin(),
+                           ghost_rows[g].end());
+            ghost_row_begins.push_back(ghost_row_begins.back() +
+                                       nc * nc * ghost_rows[g].size());
+          }
+        outgoing.push_back(
+          {target.first, begin, ghost_row_begins.back() - begin});
+      }
+    AssertDimension(g, ghost_rows.size());
+    ghost_entries.assign(ghost_row_begins.back(), 0.);
+
+    const Epetra_CrsMatrix &epetra = sparse_matrix.trilinos_matrix();
+    int                    *begins, *column_numbers;
+    double                 *values;
+    epetra.ExtractCrsDataPointers(begins, column_numbers, values);
+    std::vector<int> place_of(epetra.NumMyCols());
+
+    arrival_places.clear();
+    incoming.clear();
+    for (const auto &message :
+         Utilities::MPI::some_to_some(functions.get_mpi_communicator(),
+                                      patterns))
+      {
+        const std::size_t begin = arrival_places.size();
+        const auto       &data  = message.second;
+        for (std::size_t k = 0; k < data.size();)
+          {
+            const unsigned int f         = functions.global_to_local(data[k]);
+            const std::size_t  n_columns = data[k + 1];
+            k += 2;
+            for (unsigned int a = 0; a < nc; ++a)
+              {
+                const int row_begin = begins[nc * f + a];
+                for (int c = row_begin; c < begins[nc * f + a + 1]; ++c)
+                  place_of[column_numbers[c]] = c;
+                for (std::size_t j = 0; j < n_columns; ++j)
+                  for (unsigned int b = 0; b < nc; ++b)
+                    arrival_places.push_back(place_of[epetra.LCID(
+                      static_cast<int>(nc * data[k + j] + b))]);
+              }
+            k += n_columns;
+          }
+        incoming.push_back(
+          {message.first, begin, arrival_places.size() - begin});
+      }
+    arrivals.resize(arrival_places.size());
   }
 
 
@@ -194,45 +282,113 @@ namespace EBSMPM
   SystemMatrix::set_zero()
   {
     sparse_matrix = 0.;
+    std::fill(ghost_entries.begin(), ghost_entries.end(), 0.);
   }
 
 
 
   void
-  SystemMatrix::add(const unsigned int list, const double *values)
+  SystemMatrix::add(const unsigned int list,
+                    const double      *values,
+                    const unsigned int stride)
+  {
+    switch (n_components)
+      {
+        case 1:
+          add_components<1>(list, values, stride);
+          break;
+        case 2:
+          add_components<2>(list, values, stride);
+          break;
+        case 3:
+          add_components<3>(list, values, stride);
+          break;
+        default:
+          Assert(false, ExcNotImplemented());
+      }
+  }
+
+
+
+  template <unsigned int nc>
+  void
+  SystemMatrix::add_components(const unsigned int list,
+                               const double      *values,
+                               const unsigned int stride)
   {
     AssertIndexRange(list + 1, list_begins.size());
     const unsigned int  n     = list_begins[list + 1] - list_begins[list];
-    const unsigned int  nc    = n_components;
     const unsigned int *f     = list_functions.data() + list_begins[list];
     const int          *place = places.data() + place_begins[list];
+    const auto          pair  = [](const unsigned int a, const unsigned int b) {
+      return a * nc - a * (a + 1) / 2 + b;
+    };
 
+    const auto row_of = [&](const unsigned int function, const unsigned int a) {
+      if (function < n_owned)
+        return entries + row_begins[nc * function + a];
+      const std::size_t *begin = &ghost_row_begins[function - n_owned];
+      return ghost_entries.data() + begin[0] + a * (begin[1] - begin[0]) / nc;
+    };
+
+    row_values.resize(nc * n);
+    runs.resize(n);
     for (unsigned int i = 0; i < n; ++i, place += n)
-      for (unsigned int a = 0; a < nc; ++a, values += nc * n)
-        if (f[i] < n_owned)
+      {
+        // Functions are numbered along lines of the lattice.
+        unsigned int n_runs = 0;
+        for (unsigned int j = 0; j < n; ++j)
+          if (n_runs > 0 && place[j] >= 0 && place[j - 1] >= 0 &&
+              place[j] == place[j - 1] + static_cast<int>(nc))
+            ++runs[n_runs - 1].size;
+          else
+            runs[n_runs++] = {j, 1};
+
+        // The next rows are on their way while these are added to.
+        if (i + 1 < n)
+          for (unsigned int a = 0; a < nc; ++a)
+            {
+              const double *row = row_of(f[i + 1], a);
+              for (unsigned int j = 0; j < n; j += 3)
+                if (place[n + j] >= 0)
+                  {
+                    __builtin_prefetch(row + place[n + j], 1);
+                    __builtin_prefetch(row + place[n + j] + 3 * nc - 1, 1);
+                  }
+            }
+
+        for (unsigned int a = 0; a < nc; ++a)
           {
-            double *row = entries + row_begins[nc * f[i] + a];
-            for (unsigned int j = 0; j < n; ++j)
-              if (place[j] >= 0)
-                for (unsigned int b = 0; b < nc; ++b)
-                  row[place[j] + b] += values[nc * j + b];
-              else
-                for (unsigned int b = 0; b < nc; ++b)
-                  row[scattered_places[-1 - place[j] + b]] +=
-                    values[nc * j + b];
+            for (unsigned int b = 0; b < a; ++b)
+              {
+                const double *column = values + pair(b, a) * n + i;
+                for (unsigned int j = 0; j < n; ++j)
+                  row_values[nc * j + b] = column[j * stride];
+              }
+            for (unsigned int b = a; b < nc; ++b)
+              {
+                const double *row = values + i * stride + pair(a, b) * n;
+                for (unsigned int j = 0; j < n; ++j)
+                  row_values[nc * j + b] = row[j];
+              }
+
+            double *const row = row_of(f[i], a);
+            for (unsigned int r = 0; r < n_runs; ++r)
+              {
+                const unsigned int j    = runs[r].begin;
+                const double      *from = row_values.data() + nc * j;
+                if (place[j] >= 0)
+                  {
+                    double *const to = row + place[j];
+                    for (unsigned int k = 0; k < nc * runs[r].size; ++k)
+                      to[k] += from[k];
+                  }
+                else
+                  for (unsigned int b = 0; b < nc; ++b)
+                    row[scattered_places[-1 - place[j] + b]] += from[b];
+              }
           }
-        else
-          {
-            columns.resize(nc * n);
-            for (unsigned int j = 0; j < n; ++j)
-              for (unsigned int b = 0; b < nc; ++b)
-                columns[nc * j + b] = nc * global_functions[f[j]] + b;
-            sparse_matrix.add(nc * global_functions[f[i]] + a,
-                              nc * n,
-                              columns.data(),
-                              values,
-                              false);
-          }
+      }
   }
 
 
@@ -240,6 +396,38 @@ namespace EBSMPM
   void
   SystemMatrix::compress()
   {
+    const MPI_Comm communicator = sparse_matrix.get_mpi_communicator();
+    constexpr int  tag          = 4711;
+    std::vector<MPI_Request> requests;
+    for (const Message &message : incoming)
+      {
+        requests.emplace_back();
+        const int ierr = MPI_Irecv(arrivals.data() + message.begin,
+                                   message.size,
+                                   MPI_DOUBLE,
+                                   message.rank,
+                                   tag,
+                                   communicator,
+                                   &requests.back());
+        AssertThrowMPI(ierr);
+      }
+    for (const Message &message : outgoing)
+      {
+        requests.emplace_back();
+        const int ierr = MPI_Isend(ghost_entries.data() + message.begin,
+                                   message.size,
+                                   MPI_DOUBLE,
+                                   message.rank,
+                                   tag,
+                                   communicator,
+                                   &requests.back());
+        AssertThrowMPI(ierr);
+      }
+    const int ierr =
+      MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    AssertThrowMPI(ierr);
+    for (std::size_t k = 0; k < arrivals.size(); ++k)
+      entries[arrival_places[k]] += arrivals[k];
     sparse_matrix.compress(VectorOperation::add);
   }
 
@@ -258,8 +446,10 @@ namespace EBSMPM
   {
     return (places.capacity() + scattered_places.capacity()) * sizeof(int) +
            list_functions.capacity() * sizeof(unsigned int) +
-           (list_begins.capacity() + place_begins.capacity()) *
+           (list_begins.capacity() + place_begins.capacity() +
+            ghost_row_begins.capacity() + arrival_places.capacity()) *
              sizeof(std::size_t) +
+           (ghost_entries.capacity() + arrivals.capacity()) * sizeof(double) +
            global_functions.capacity() * sizeof(types::global_dof_index);
   }
 } // namespace EBSMPM

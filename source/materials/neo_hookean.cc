@@ -27,12 +27,7 @@ namespace EBSMPM
         : J(determinant(F))
         , trace(static_cast<double>(3 - dim))
       {
-        // The negation also catches a NaN.
-        AssertThrow(
-          J > 0. && std::isfinite(J),
-          ExcSolverFailure(
-            "The deformation gradient at a point has the determinant " +
-            std::to_string(J) + ", but it must be positive."));
+        Material<dim>::check_determinant(J);
 
         double squares = 0.;
         for (unsigned int i = 0; i < dim; ++i)

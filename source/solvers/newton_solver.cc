@@ -188,17 +188,20 @@ namespace EBSMPM
             problem.smooth(x);
             report.smoothed = true;
           }
+        // With the tangent at x_0, the error at x_1 is reduced about as much as
+        // the residual has been from x_0 to x_1. If that will do, spare the new
+        // tangent.
+        const double ratio = norm / previous;
         if (report.iterations == 0 && problem.predictor)
           problem.predictor(x, residual);
-        else
+        else if (report.iterations != 1 || 10. * ratio * norm > target)
           problem.tangent(x, residual);
 
         // As accurate as the nonlinear convergence can make use of.
-        const double ratio = norm / previous;
-        double       eta   = (report.iterations == 0) ?
-                               1e-4 :
-                               std::min(1e-3, 0.9 * ratio * ratio);
-        eta                = std::max({eta, 0.1 * target / norm, 1e-12});
+        double eta = (report.iterations == 0) ?
+                       1e-5 :
+                       std::min(1e-3, 0.9 * ratio * ratio);
+        eta        = std::max({eta, 0.1 * target / norm, 1e-12});
 
         update.zero_out_ghost_values();
         update = 0.;

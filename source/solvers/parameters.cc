@@ -209,6 +209,12 @@ namespace EBSMPM
                   "are extrapolated from others.",
                   prm,
                   Patterns::Double(0., 0.9));
+    add_parameter("Hysteresis",
+                  hysteresis,
+                  "A function that was not extrapolated is not until its "
+                  "fraction has sunk below the threshold by this part of it.",
+                  prm,
+                  Patterns::Double(0., 0.9));
   }
 
 
@@ -292,7 +298,7 @@ namespace EBSMPM
                   "Largest factor of over-relaxation of the damage; one for "
                   "none.",
                   prm,
-                  Patterns::Double(1., 1.95));
+                  Patterns::Double(1.));
   }
 
 

@@ -263,6 +263,7 @@ namespace EBSMPM
     typename StaggeredStep<dim>::AdditionalData data;
     data.degree               = grid.degree;
     data.extension_threshold  = extension.threshold;
+    data.extension_hysteresis = extension.hysteresis;
     data.damage               = damage.enable;
     data.damage_boundary_term = damage.boundary_term;
     data.max_passes           = staggered.maximum_passes;

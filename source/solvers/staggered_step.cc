@@ -99,14 +99,21 @@ namespace EBSMPM
       }
 
     // The damage sees both sides of a crack.
-    typename SplineSpace<dim>::SupportTable supports;
-    add_supports<dim>(points, current_volume, {}, d_space, supports);
-    add_supports<dim>(boundary_points, {}, {}, d_space, supports);
-    d_space.reinit(supports, data.extension_threshold);
-    make_extension_constraints(d_space, d_constraints);
+    const FieldSnapshot<dim> old_rows(d_space, d_solver.former_rows());
+    d_supports.clear();
+    add_supports<dim>(points, current_volume, {}, d_space, d_supports);
+    add_supports<dim>(boundary_points, {}, {}, d_space, d_supports);
+    if (d_space.reinit(d_supports,
+                       data.extension_threshold,
+                       data.extension_hysteresis))
+      make_extension_constraints(d_space, d_constraints);
     if (d_system.reinit(
           points, boundary_points, d_space, d_constraints, {}, {}))
-      d_solver.clear();
+      {
+        LA::FieldVector rows = d_system.make_vector();
+        old_rows.template transfer<1>(d_space, rows);
+        d_solver.renumber(rows);
+      }
     d_system.initialize_vector(d_field);
     old_damage.template transfer<1>(d_space, d_field);
     // For cell_damage(), which has to do without communication.
@@ -124,16 +131,25 @@ namespace EBSMPM
     TimerOutput::Scope scope(*timer, "points and spaces");
 
     const FieldSnapshot<dim> old_increment(u_space, u_increment);
+    const FieldSnapshot<dim> old_rows(u_space, u_solver.former_rows());
 
-    typename SplineSpace<dim>::SupportTable supports;
-    add_supports<dim>(
-      points, current_volume, partition.patterns(), u_space, supports);
-    add_supports<dim>(
-      boundary_points, {}, partition.boundary_patterns(), u_space, supports);
-    if (data.partition)
-      partition.add_sides(supports);
-    u_space.reinit(supports, data.extension_threshold);
-    u_extension = make_extension_constraints(u_space, u_constraints);
+    // Without a crack, the points read the same functions as for the damage.
+    typename SplineSpace<dim>::SupportTable u_supports;
+    if (partition.is_open())
+      {
+        add_supports<dim>(
+          points, current_volume, partition.patterns(), u_space, u_supports);
+        add_supports<dim>(boundary_points,
+                          {},
+                          partition.boundary_patterns(),
+                          u_space,
+                          u_supports);
+        partition.add_sides(u_supports);
+      }
+    if (u_space.reinit(partition.is_open() ? u_supports : d_supports,
+                       data.extension_threshold,
+                       data.extension_hysteresis))
+      u_extension = make_extension_constraints(u_space, u_constraints);
     if (u_system.reinit(points,
                         boundary_points,
                         u_space,
@@ -141,7 +157,9 @@ namespace EBSMPM
                         partition.patterns(),
                         partition.boundary_patterns()))
       {
-        u_solver.clear();
+        LA::FieldVector rows = u_system.make_vector();
+        old_rows.template transfer<dim>(u_space, rows);
+        u_solver.renumber(rows);
         u_solver.set_near_null_space(RigidMotions::coefficients(
           u_space, u_system.matrix().locally_owned_range_indices()));
       }
@@ -220,10 +238,10 @@ namespace EBSMPM
                     first_residual :
                     std::max(largest_force, 1e-3 * first_residual);
 
-    const bool iterate         = data.damage && data.max_passes > 1;
-    double     relaxation      = 1.;
-    double     previous_change = std::numeric_limits<double>::max();
-    bool       converged       = !iterate;
+    const bool      iterate    = data.damage && data.max_passes > 1;
+    bool            converged  = !iterate;
+    double          relaxation = 1.;
+    LA::FieldVector last_update;
 
     for (unsigned int pass = 1; pass <= data.max_passes; ++pass)
       {
@@ -231,13 +249,8 @@ namespace EBSMPM
         bool partition_changed = false;
         if (data.damage)
           {
-            report.damage_change = solve_damage(relaxation, report);
-
-            // Go further while this pays off, and carefully when it does not.
-            relaxation      = (report.damage_change < previous_change) ?
-                                std::min(data.max_relaxation, relaxation + 0.1) :
-                                1.;
-            previous_change = report.damage_change;
+            report.damage_change =
+              solve_damage(relaxation, last_update, report);
 
             if (data.partition && pass <= data.max_partition_passes &&
                 update_partition())
@@ -254,10 +267,11 @@ namespace EBSMPM
                                        data.intermediate_tolerance,
                            report);
 
+        update = u_system.update_points(state, u_increment);
         if (data.damage)
           {
             TimerOutput::Scope scope(*timer, "history");
-            u_system.driving_energy(state, u_increment, psi);
+            u_system.driving_energy(update, psi);
             for (unsigned int q = 0; q < points.n_points(); ++q)
               {
                 // What has become part of the discrete crack in this step is
@@ -297,7 +311,6 @@ namespace EBSMPM
   CrackOpening
   StaggeredStep<dim>::opening() const
   {
-    const auto update = u_system.update_points(state, u_increment);
     std::vector<Tensor<1, dim>> displacements(points.n_points());
     for (unsigned int q = 0; q < points.n_points(); ++q)
       displacements[q] =
@@ -324,48 +337,6 @@ namespace EBSMPM
                   "The equilibrium is not stable: its tangent has negative "
                   "pivots. (If this is so from the first step on, the penalty "
                   "factor of Nitsche's method is too small.)"));
-  }
-
-
-
-  template <int dim>
-  double
-  StaggeredStep<dim>::solve_damage(const double relaxation, Report &report)
-  {
-    std::vector<double> driving;
-    if (data.damage_boundary_term)
-      u_system.boundary_driving(boundary, u_increment, driving);
-
-    LA::FieldVector rhs = d_system.make_vector();
-    {
-      TimerOutput::Scope scope(*timer, "assemble damage");
-      d_system.assemble(state, boundary, driving, rhs);
-    }
-    LA::FieldVector solution = d_field;
-    {
-      TimerOutput::Scope scope(*timer, "solve damage");
-      const auto         linear =
-        solve_linear_system(d_solver, d_system.matrix(), rhs, 1e-11, solution);
-      report.linear_iterations += linear.iterations;
-      report.refreshes += linear.refreshed;
-    }
-
-    // d <- d + omega (solution - d)
-    d_field.zero_out_ghost_values();
-    d_field.sadd(1. - relaxation, relaxation, solution);
-
-    std::vector<double> at_points, at_boundary_points;
-    d_system.evaluate(d_field, at_points, at_boundary_points);
-    double change = 0.;
-    for (unsigned int q = 0; q < points.n_points(); ++q)
-      {
-        const double d  = std::min(1., std::max(0., at_points[q]));
-        change          = std::max(change, std::abs(d - state.damage[q]));
-        state.damage[q] = d;
-      }
-    for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
-      boundary.damage[q] = std::min(1., std::max(0., at_boundary_points[q]));
-    return Utilities::MPI::max(change, d_space.communicator());
   }
 
 
@@ -434,7 +405,6 @@ namespace EBSMPM
     for (const auto &reaction : all_reactions)
       largest_force = std::max(largest_force, reaction.second.norm());
 
-    const auto update = u_system.update_points(state, u_increment);
     for (unsigned int q = 0; q < points.n_points(); ++q)
       {
         MaterialPoint<dim> point(points.properties(q));

@@ -51,6 +51,7 @@ namespace EBSMPM
     : mpi_communicator(get_mpi_communicator(triangulation))
     , cell_lattice(triangulation)
     , p(degree)
+    , table(std::make_shared<const FunctionTable>())
     , directory(mpi_communicator)
   {
     Assert(degree >= 1 && degree <= 3, ExcIndexRange(degree, 1, 4));
@@ -59,44 +60,142 @@ namespace EBSMPM
 
 
   template <int dim>
-  void
-  SplineSpace<dim>::reinit(const SupportTable &supports, const double threshold)
+  bool
+  SplineSpace<dim>::reinit(const SupportTable &supports,
+                           const double        threshold,
+                           const double        hysteresis)
   {
-    using namespace internal::SplineSpaceImplementation;
+    FunctionTable new_table = classify(supports, threshold, hysteresis);
+
+    // Most often, nothing has changed since the last time but fractions.
+    const auto change = static_cast<Change>(
+      Utilities::MPI::max(static_cast<int>(compare(new_table)),
+                          mpi_communicator));
+    if (change == Change::functions)
+      number(new_table);
+    else
+      for (auto &entry : new_table)
+        entry.second.index = table->at(entry.first).index;
+
+    if (change != Change::fractions)
+      {
+        ++change_counter;
+        tell_others(new_table);
+      }
+    table = std::make_shared<const FunctionTable>(std::move(new_table));
+    return change != Change::fractions;
+  }
+
+
+
+  template <int dim>
+  typename SplineSpace<dim>::FunctionTable
+  SplineSpace<dim>::classify(const SupportTable &supports,
+                             const double        threshold,
+                             const double        hysteresis) const
+  {
     const unsigned int my_rank =
       Utilities::MPI::this_mpi_process(mpi_communicator);
 
+    // Who was standard before? If nobody here has seen a function, ask.
+    FunctionTable elsewhere;
+    const bool    remember = (hysteresis > 0. && n_active_functions > 0);
+    if (remember)
+      {
+        std::vector<Key> unknown;
+        for (const auto &entry : supports)
+          if (find(entry.first) == nullptr)
+            unknown.push_back(entry.first);
+        elsewhere = directory.query(unknown);
+      }
+    const auto was_standard = [&](const Key &key) {
+      if (!remember)
+        return false;
+      const Function *function = find(key);
+      const auto      found    = elsewhere.find(key);
+      if (function == nullptr && found != elsewhere.end())
+        function = &found->second;
+      return function != nullptr &&
+             function->category == FunctionClass::standard;
+    };
+
     // Add up the shares. The owner is the lowest rank that sees the function.
-    table.clear();
-    table.reserve(supports.size());
+    FunctionTable result;
+    result.reserve(supports.size());
     for (const auto &entry : supports)
       {
         Function function;
         function.owner    = my_rank;
         function.fraction = entry.second.fraction;
         function.side     = entry.second.side;
-        table.emplace(entry.first, function);
+        function.category = was_standard(entry.first) ?
+                              FunctionClass::standard :
+                              FunctionClass::deficient;
+        result.emplace(entry.first, function);
       }
-    directory.clear();
-    table = directory.reduce(table, [](Function a, const Function &b) {
+    result = directory.reduce(result, [](Function a, const Function &b) {
       a.fraction += b.fraction;
       a.owner  = std::min(a.owner, b.owner);
       a.shared = true;
+      if (b.category == FunctionClass::standard)
+        a.category = b.category;
       return a;
     });
 
     // The totals are the same, bit by bit, on all processes that see a
     // function, and hence so are the classes. The relative margin keeps
     // fractions apart that differ by roundoff only.
-    for (auto &entry : table)
-      entry.second.category = entry.first.part != 0 ? FunctionClass::twin :
-                              entry.second.fraction > threshold * (1. + 1e-9) ?
-                                                      FunctionClass::standard :
-                                                      FunctionClass::deficient;
+    for (auto &entry : result)
+      {
+        Function    &function = entry.second;
+        const double limit = (function.category == FunctionClass::standard ?
+                                (1. - hysteresis) * threshold :
+                                threshold) *
+                             (1. + 1e-9);
+        function.category = entry.first.part != 0 ? FunctionClass::twin :
+                            function.fraction > limit ?
+                                                    FunctionClass::standard :
+                                                    FunctionClass::deficient;
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  typename SplineSpace<dim>::Change
+  SplineSpace<dim>::compare(const FunctionTable &other) const
+  {
+    if (change_counter == 0 || other.size() != table->size())
+      return Change::functions;
+    Change result = Change::fractions;
+    for (const auto &entry : other)
+      {
+        const Function *function = find(entry.first);
+        if (function == nullptr ||
+            function->category != entry.second.category ||
+            function->owner != entry.second.owner ||
+            function->shared != entry.second.shared)
+          return Change::functions;
+        if (function->side != entry.second.side)
+          result = Change::sides;
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  SplineSpace<dim>::number(FunctionTable &functions)
+  {
+    using namespace internal::SplineSpaceImplementation;
+    const unsigned int my_rank =
+      Utilities::MPI::this_mpi_process(mpi_communicator);
 
     // Number what we own, in the order of the keys.
     std::vector<Key> mine[2];
-    for (const auto &entry : table)
+    for (const auto &entry : functions)
       if (entry.second.owner == my_rank)
         mine[entry.second.category == FunctionClass::standard ? 0 : 1]
           .push_back(entry.first);
@@ -112,41 +211,52 @@ namespace EBSMPM
                                                 dependent.first};
 
     types::global_dof_index n_my_twins = 0;
-    std::vector<typename FunctionDirectory<dim, Function>::Entry> entries;
     for (unsigned int c = 0; c < 2; ++c)
       for (types::global_dof_index i = 0; i < mine[c].size(); ++i)
         {
-          Function &function = table.at(mine[c][i]);
+          Function &function = functions.at(mine[c][i]);
           function.index     = first[c] + i;
           n_my_twins += (function.category == FunctionClass::twin);
-          entries.push_back({mine[c][i], function});
         }
     n_twin_functions = Utilities::MPI::sum(n_my_twins, mpi_communicator);
-
-    // Tell the others, and learn about what others own.
-    directory.publish(entries);
-    std::vector<Key> theirs;
-    for (const auto &entry : table)
-      if (entry.second.owner != my_rank)
-        theirs.push_back(entry.first);
-    for (const auto &entry : directory.query(theirs))
-      table[entry.first].index = entry.second.index;
 
     owned_independent = IndexSet(n_independent_functions);
     owned_independent.add_range(first[0], first[0] + mine[0].size());
     owned = IndexSet(n_active_functions);
     owned.add_range(first[0], first[0] + mine[0].size());
     owned.add_range(first[1], first[1] + mine[1].size());
+    owned_independent.compress();
+    owned.compress();
+  }
+
+
+
+  template <int dim>
+  void
+  SplineSpace<dim>::tell_others(FunctionTable &functions)
+  {
+    const unsigned int my_rank =
+      Utilities::MPI::this_mpi_process(mpi_communicator);
+
+    std::vector<typename FunctionDirectory<dim, Function>::Entry> mine;
+    std::vector<Key>                                              theirs;
+    for (const auto &entry : functions)
+      if (entry.second.owner == my_rank)
+        mine.push_back({entry.first, entry.second});
+      else
+        theirs.push_back(entry.first);
+    directory.clear();
+    directory.publish(mine);
+    for (const auto &entry : directory.query(theirs))
+      functions[entry.first].index = entry.second.index;
 
     std::vector<types::global_dof_index> indices;
-    indices.reserve(table.size());
-    for (const auto &entry : table)
+    indices.reserve(functions.size());
+    for (const auto &entry : functions)
       indices.push_back(entry.second.index);
     std::sort(indices.begin(), indices.end());
     relevant = IndexSet(n_active_functions);
     relevant.add_indices(indices.begin(), indices.end());
-    owned_independent.compress();
-    owned.compress();
     relevant.compress();
   }
 
@@ -156,8 +266,8 @@ namespace EBSMPM
   const typename SplineSpace<dim>::Function *
   SplineSpace<dim>::find(const Key &key) const
   {
-    const auto found = table.find(key);
-    return found == table.end() ? nullptr : &found->second;
+    const auto found = table->find(key);
+    return found == table->end() ? nullptr : &found->second;
   }
 
 
@@ -166,7 +276,25 @@ namespace EBSMPM
   const typename SplineSpace<dim>::FunctionTable &
   SplineSpace<dim>::functions() const
   {
+    return *table;
+  }
+
+
+
+  template <int dim>
+  std::shared_ptr<const typename SplineSpace<dim>::FunctionTable>
+  SplineSpace<dim>::share_functions() const
+  {
     return table;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  SplineSpace<dim>::n_changes() const
+  {
+    return change_counter;
   }
 
 

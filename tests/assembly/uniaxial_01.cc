@@ -150,7 +150,8 @@ test(const unsigned int degree,
                 break;
             }
           std::vector<double> driving;
-          displacement.driving_energy(body->state, u, driving);
+          displacement.driving_energy(displacement.update_points(body->state, u),
+                                      driving);
           for (unsigned int q = 0; q < driving.size(); ++q)
             body->state.history[q] = std::max(old_history[q], driving[q]);
           damage.assemble(body->state, body->boundary, {}, rhs);

@@ -228,7 +228,8 @@ run(const unsigned int n_cells, const unsigned int n_per_direction, Report &tabl
   table.print("factorisation and solve", n_points, linear);
   std::vector<double> psi;
   table.print("driving energy", n_points, seconds([&]() {
-                u_system.driving_energy(body.state, x, psi);
+                u_system.driving_energy(u_system.update_points(body.state, x),
+                                        psi);
               }));
 
   LA::FieldVector right_hand_side = d_system.make_vector();

@@ -94,12 +94,12 @@ namespace EBSMPM
     is_free(const unsigned int g) const;
 
   private:
-    /** Sums over the points of a piece, in the order of messages. */
+    /** Where the material of a piece is, and how far it reaches. */
     struct Moments
     {
-      double         volume = 0.;
-      Tensor<1, dim> first;
-      double         second = 0.;
+      double     volume = 0.;
+      Point<dim> centre;
+      double     radius = 1.;
     };
 
     /**

@@ -10,10 +10,12 @@
 #ifndef ebsmpm_assembly_damage_system_h
 #define ebsmpm_assembly_damage_system_h
 
-#include <ebsmpm/assembly/point_groups.h>
-#include <ebsmpm/assembly/point_state.h>
 #include <ebsmpm/lac/system_matrix.h>
 #include <ebsmpm/lac/types.h>
+
+#include <ebsmpm/assembly/extension_product.h>
+#include <ebsmpm/assembly/point_groups.h>
+#include <ebsmpm/assembly/point_state.h>
 
 #include <deal.II/base/partitioner.h>
 
@@ -67,12 +69,12 @@ namespace EBSMPM
 
     /** Prepare for a load step. See DisplacementSystem::reinit(). */
     bool
-    reinit(const CellPoints<dim> &          points,
-           const CellPoints<dim> &          boundary_points,
-           const SplineSpace<dim> &         space,
+    reinit(const CellPoints<dim>           &points,
+           const CellPoints<dim>           &boundary_points,
+           const SplineSpace<dim>          &space,
            const AffineConstraints<double> &constraints,
-           const std::vector<Pattern> &     patterns,
-           const std::vector<Pattern> &     boundary_patterns);
+           const std::vector<Pattern>      &patterns,
+           const std::vector<Pattern>      &boundary_patterns);
 
     /** Return a zero vector of the right distribution. */
     LA::FieldVector
@@ -97,10 +99,10 @@ namespace EBSMPM
      * @param right_hand_side is overwritten
      */
     void
-    assemble(const MaterialState<dim> & state,
-             const BoundaryState<dim> & boundary,
+    assemble(const MaterialState<dim>  &state,
+             const BoundaryState<dim>  &boundary,
              const std::vector<double> &boundary_driving,
-             LA::FieldVector &          right_hand_side);
+             LA::FieldVector           &right_hand_side);
 
     /** The matrix of the last call of assemble(). */
     const LA::SparseMatrix &
@@ -112,8 +114,8 @@ namespace EBSMPM
      */
     void
     evaluate(const LA::FieldVector &damage,
-             std::vector<double> &  at_points,
-             std::vector<double> &  at_boundary_points) const;
+             std::vector<double>   &at_points,
+             std::vector<double>   &at_boundary_points) const;
 
     /**
      * Compute the regularised crack area, $\sum_p V_0\gamma$; times $G_c$ it
@@ -121,7 +123,7 @@ namespace EBSMPM
      */
     double
     crack_area(const MaterialState<dim> &state,
-               const LA::FieldVector &   damage) const;
+               const LA::FieldVector    &damage) const;
 
     /** The energy release rate $G_c$. */
     double
@@ -138,20 +140,21 @@ namespace EBSMPM
   private:
     /** Resolve constraints and add a local matrix and vector. */
     void
-    distribute(const PointGroups<dim> &                groups,
+    distribute(const PointGroups<dim>                 &groups,
                const typename PointGroups<dim>::Group &group,
                const unsigned int                      list,
-               const double *                          matrix,
+               const double                           *matrix,
                const unsigned int                      stride,
-               const double *                          vector,
-               LA::FieldVector &                       right_hand_side);
+               const double                           *vector,
+               LA::FieldVector                        &right_hand_side);
 
     const double Gc;
     const double l;
 
-    const CellPoints<dim> * points          = nullptr;
-    const CellPoints<dim> * boundary_points = nullptr;
+    const CellPoints<dim>  *points          = nullptr;
+    const CellPoints<dim>  *boundary_points = nullptr;
     const SplineSpace<dim> *spline_space    = nullptr;
+    unsigned int            n_changes       = 0;
 
     PointGroups<dim> material_groups;
     PointGroups<dim> boundary_groups;
@@ -161,7 +164,8 @@ namespace EBSMPM
     SystemMatrix system_matrix;
 
     /** Arrays of the loop over the groups, allocated once. */
-    std::vector<double> X, product, local_vector, half, local_matrix;
+    std::vector<double> X, product, local_vector;
+    ExtensionProduct    extension_product;
   };
 } // namespace EBSMPM
 

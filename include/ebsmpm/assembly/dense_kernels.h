@@ -49,10 +49,55 @@ namespace EBSMPM
     transposed_product(const unsigned int n_inner,
                        const unsigned int n_rows,
                        const unsigned int n_columns,
-                       const double *     A,
+                       const double      *A,
                        const unsigned int lda,
-                       const double *     B,
-                       double *           C);
+                       const double      *B,
+                       double            *C);
+
+    /**
+     * Compute $C^T = A B^T$, the products of few rows with many: the gradients
+     * of the components of a field at all points.
+     *
+     * @param n_inner length of all rows, which are @p ld apart; up to the next
+     *   multiple of #padding, they are zero
+     * @param n_rows, @p A the few rows
+     * @param n_columns, @p B the many rows
+     * @param C <tt>C[j*n_rows+i]</tt> is the product of row $i$ of @p A and row
+     *   $j$ of @p B
+     */
+    void
+    row_products(const unsigned int n_inner,
+                 const unsigned int n_rows,
+                 const double      *A,
+                 const unsigned int n_columns,
+                 const double      *B,
+                 const unsigned int ld,
+                 double            *C);
+
+    /**
+     * Combine rows that belong to the same point: block $b$ of row $(p,j)$ of
+     * @p B becomes $\sum_l c^b_{jl}(p)\,G_{(p,l)}$.
+     *
+     * @param n_points number of points $p$; there are n_rows rows for each
+     * @param n_blocks number of blocks; block $b$ begins at column $bn$
+     * @param n length of a row of @p G
+     * @param c <tt>c[((b*n_rows+j)*n_rows+l)*ldc+p]</tt> is $c^b_{jl}(p)$
+     * @param G, @p B row by row, rows being @p ldg and @p ldb apart; rows of
+     *   @p G are zero up to the next multiple of #padding, and those of @p B
+     *   will be; behind the last row of @p B, there must be room for #padding
+     *   numbers
+     */
+    template <int n_rows>
+    void
+    combine_rows(const unsigned int n_points,
+                 const unsigned int n_blocks,
+                 const unsigned int n,
+                 const double      *c,
+                 const unsigned int ldc,
+                 const double      *G,
+                 const unsigned int ldg,
+                 double            *B,
+                 const unsigned int ldb);
   } // namespace DenseKernels
 } // namespace EBSMPM
 

@@ -124,7 +124,8 @@ namespace EBSMPM
      * term $\sum_p V_0\,\rho\,\Delta\mathbf u\cdot\delta\mathbf u$ there, with
      * $\rho=10^{-6}\,(K+\frac43G)/h^2$. It is what makes the static problem
      * solvable; as no load acts on such a piece, it stays where it is, with the
-     * stress it has. reinit() forgets the pieces. Collective.
+     * stress it has. reinit() forgets the pieces if anything has changed; as
+     * long as they are known, nothing is done. Collective.
      */
     void
     hold_free_pieces(const MaterialState<dim> &state,
@@ -201,14 +202,6 @@ namespace EBSMPM
     const LA::SparseMatrix &
     matrix() const;
 
-    /**
-     * Compute $\Psi_0^+$ at the material points, which drives the damage.
-     */
-    void
-    driving_energy(const MaterialState<dim> &state,
-                   const LA::FieldVector    &increment,
-                   std::vector<double>      &psi_degraded) const;
-
     /** Compute the energies of the body. Collective. */
     Energies
     energies(const MaterialState<dim> &state,
@@ -239,6 +232,13 @@ namespace EBSMPM
     Update
     update_points(const MaterialState<dim> &state,
                   const LA::FieldVector    &increment) const;
+
+    /**
+     * Compute $\Psi_0^+$ at the material points, which drives the damage.
+     */
+    void
+    driving_energy(const Update        &update,
+                   std::vector<double> &psi_degraded) const;
 
     /** Compute what the boundary points are to become. */
     Update
@@ -330,6 +330,7 @@ namespace EBSMPM
     const CellPoints<dim>  *points          = nullptr;
     const CellPoints<dim>  *boundary_points = nullptr;
     const SplineSpace<dim> *spline_space    = nullptr;
+    unsigned int            n_changes       = 0;
 
     /** The branches of the points; empty unless they are held. */
     std::vector<EnergyBranch> branches;
@@ -340,9 +341,6 @@ namespace EBSMPM
 
     ConnectedPieces<dim> connected_pieces;
 
-    /** The density $\rho$ of free pieces. */
-    double mass_density = 0.;
-
     std::shared_ptr<const Utilities::MPI::Partitioner> functions;
     std::shared_ptr<const Utilities::MPI::Partitioner> unknowns;
 
@@ -351,7 +349,7 @@ namespace EBSMPM
     /** The terms; their arrays are allocated once per step. */
     mutable LocalSystem<dim>  local;
     mutable ElasticTerms<dim> elastic_terms;
-    const NitscheTerms<dim>   nitsche_terms;
+    mutable NitscheTerms<dim> nitsche_terms;
   };
 } // namespace EBSMPM
 

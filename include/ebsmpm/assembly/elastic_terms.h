@@ -15,6 +15,7 @@
 
 #include <ebsmpm/assembly/local_system.h>
 #include <ebsmpm/assembly/point_state.h>
+#include <ebsmpm/assembly/tangent_product.h>
 
 #include <vector>
 
@@ -33,8 +34,8 @@ namespace EBSMPM
    * @f]
    * (method, section 1). The tangent of all points is computed as a single
    * product $\mathbf G^T(\mathbf c\,\mathbf G)$ of matrices whose rows are
-   * points and directions, see DenseKernels; only the upper half of the pairs
-   * of components, $i\le k$, is computed, since $\mathbf K$ is symmetric.
+   * points and directions, see TangentProduct; and the material computes
+   * several points side by side, see MaterialBatch.
    *
    * @code
    * ElasticTerms<dim> terms(material, degradation);
@@ -76,25 +77,29 @@ namespace EBSMPM
             LocalSystem<dim>                &local);
 
   private:
-    /** Number of pairs of components that are computed. */
-    static constexpr unsigned int n_pairs = dim * (dim + 1) / 2;
-
-    /** Compute the tangent from the rows of all points. */
+    /** Compute the gradients of all functions, and what the material needs. */
     void
-    multiply(LocalSystem<dim> &local);
+    deform(const MaterialState<dim>        &state,
+           const std::vector<EnergyBranch> &branches,
+           const LocalSystem<dim>          &local);
+
+    /** Add to the residual, from the stress at all points. */
+    void
+    add_residual(LocalSystem<dim> &local);
 
     const Material<dim> &material;
     const Degradation   &degradation;
 
-    /** Length of a row of @p cG and of @p product. */
-    unsigned int stride = 0;
+    MaterialBatch<dim>       batch;
+    TangentProduct<dim, dim> product;
 
-    /** A row per point and direction: gradients, and those times tangents. */
-    std::vector<double> G;
-    std::vector<double> cG;
+    /** The increment, a row per component, and its gradients at the points. */
+    std::vector<double> coefficients;
+    std::vector<double> gradients;
 
-    /** Their product, a row per function. */
-    std::vector<double> product;
+    /** A row of stresses per point and direction; a row per component. */
+    std::vector<double> stresses;
+    std::vector<double> residual;
   };
 } // namespace EBSMPM
 

@@ -17,6 +17,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <memory>
 #include <vector>
 
 namespace EBSMPM
@@ -80,10 +81,11 @@ namespace EBSMPM
     transfer(const SplineSpace<dim> &space, LA::FieldVector &field) const;
 
   private:
-    typename SplineSpace<dim>::FunctionTable functions;
-    types::global_dof_index                  n_independent = 0;
-    LA::FieldVector                          field;
-    bool                                     is_elsewhere = false;
+    std::shared_ptr<const typename SplineSpace<dim>::FunctionTable> functions;
+
+    types::global_dof_index n_independent = 0;
+    LA::FieldVector         field;
+    bool                    is_elsewhere = false;
   };
 
 

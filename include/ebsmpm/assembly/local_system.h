@@ -15,6 +15,7 @@
 
 #include <ebsmpm/splines/bspline_kernel.h>
 
+#include <ebsmpm/assembly/extension_product.h>
 #include <ebsmpm/assembly/point_groups.h>
 
 #include <deal.II/base/tensor.h>
@@ -96,6 +97,10 @@ namespace EBSMPM
     void
     gather(const LA::FieldVector &increment);
 
+    /** Edge length of the cell, in the first direction. */
+    double
+    cell_extent() const;
+
     /** Number of functions that the cell sees. */
     unsigned int
     n_functions() const;
@@ -114,10 +119,18 @@ namespace EBSMPM
 
     /**
      * Compute values and gradients of all functions at a point of the group:
-     * <tt>G[d*n_functions()+i]</tt> is $\partial B_i/\partial x_d$.
+     * <tt>G[d*n_functions()+i]</tt> is $\partial B_i/\partial x_d$, or
+     * <tt>G[d*stride+i]</tt> if a @p stride is given.
      */
     void
-    values_and_gradients(const unsigned int k, double *B, double *G) const;
+    values_and_gradients(const unsigned int k,
+                         double            *B,
+                         double            *G,
+                         const unsigned int stride = 0) const;
+
+    /** Return the coefficient of function @p i of the cell. */
+    const Tensor<1, dim> &
+    coefficient(const unsigned int i) const;
 
     /** Return the increment, where the functions have the values @p B. */
     Tensor<1, dim>
@@ -127,12 +140,27 @@ namespace EBSMPM
     std::array<Tensor<1, dim>, dim>
     gradient(const double *G) const;
 
+    /** Number of pairs of components $a\le b$. */
+    static constexpr unsigned int n_pairs = dim * (dim + 1) / 2;
+
+    /** The number of such a pair. */
+    static constexpr unsigned int
+    pair(const unsigned int a, const unsigned int b)
+    {
+      return a * dim - a * (a + 1) / 2 + b;
+    }
+
     /**
-     * The part of the tangent that couples component @p a of all functions with
-     * component @p b, row by row.
+     * The tangent, row by row: <tt>tangent()[I*tangent_stride() + pair(a,b)*
+     * n_functions() + J]</tt> couples component $a$ of function $I$ with
+     * component $b$ of function $J$, $a\le b$. The rest follows by symmetry.
      */
     double *
-    tangent_block(const unsigned int a, const unsigned int b);
+    tangent();
+
+    /** Distance between two rows of the tangent. */
+    unsigned int
+    tangent_stride() const;
 
     /** Set the tangent to zero. */
     void
@@ -154,10 +182,6 @@ namespace EBSMPM
     std::vector<Tensor<1, dim>> residual;
 
   private:
-    /** Compute @p half as a block of the tangent times $\mathbf E$. */
-    void
-    multiply_extension(const double *K, const double *E, const unsigned int m);
-
     const SplineSpace<dim>                 *space  = nullptr;
     const CellPoints<dim>                  *points = nullptr;
     const PointGroups<dim>                 *groups = nullptr;
@@ -171,17 +195,23 @@ namespace EBSMPM
 
     std::vector<Tensor<1, dim>> coefficients;
 
-    /** The tangent, block by block. */
-    std::vector<double> tangent;
-
-    /** A block times $\mathbf E$, and the tangent of the unknowns. */
-    std::vector<double> half;
-    std::vector<double> matrix_of_unknowns;
+    unsigned int        stride = 0;
+    std::vector<double> tangent_rows;
+    ExtensionProduct    extension_product;
   };
 
 
 
 #ifndef DOXYGEN
+
+  template <int dim>
+  inline double
+  LocalSystem<dim>::cell_extent() const
+  {
+    return 1. / inverse_h[0];
+  }
+
+
 
   template <int dim>
   inline unsigned int
@@ -223,10 +253,20 @@ namespace EBSMPM
   inline void
   LocalSystem<dim>::values_and_gradients(const unsigned int k,
                                          double            *B,
-                                         double            *G) const
+                                         double            *G,
+                                         const unsigned int stride) const
   {
     kernel.values_and_gradients(
-      points->unit_point(point(k)), inverse_h, B, G, n);
+      points->unit_point(point(k)), inverse_h, B, G, stride > 0 ? stride : n);
+  }
+
+
+
+  template <int dim>
+  inline const Tensor<1, dim> &
+  LocalSystem<dim>::coefficient(const unsigned int i) const
+  {
+    return coefficients[i];
   }
 
 
@@ -260,9 +300,18 @@ namespace EBSMPM
 
   template <int dim>
   inline double *
-  LocalSystem<dim>::tangent_block(const unsigned int a, const unsigned int b)
+  LocalSystem<dim>::tangent()
   {
-    return tangent.data() + (a * dim + b) * n * n;
+    return tangent_rows.data();
+  }
+
+
+
+  template <int dim>
+  inline unsigned int
+  LocalSystem<dim>::tangent_stride() const
+  {
+    return stride;
   }
 
 #endif

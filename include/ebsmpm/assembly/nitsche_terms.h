@@ -17,6 +17,7 @@
 
 #include <ebsmpm/assembly/local_system.h>
 #include <ebsmpm/assembly/point_state.h>
+#include <ebsmpm/assembly/tangent_product.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -58,14 +59,25 @@ namespace EBSMPM
    * B_I t_j$ to the residual, and nothing to the tangent.
    *
    * @code
-   * const NitscheTerms<dim> terms(material, degradation, beta);
+   * NitscheTerms<dim> terms(material, degradation, beta);
+   * terms.initialize(n_functions_per_cell, groups.max_n_points());
    * local.reinit(boundary_points, groups, group);
    * local.gather(increment);
    * terms.compute(AssemblyTask::tangent, boundary, {}, local);
    * @endcode
    *
-   * Boundary points are few. They are added one after the other, without the
-   * care for speed of ElasticTerms. Nothing is allocated.
+   * The tangent is a TangentProduct in terms of value and gradient, with the
+   * coefficients
+   * @f{align*}{
+   *   c_{i0k0} &= A_0\,\delta_{ik}\,\beta, &
+   *   c_{i0kl} &= -A_0\, T^i_{kl}, \\
+   *   c_{ijk0} &= -A_0\, T^k_{ij}, &
+   *   c_{ijkl} &= -A_0\, F_{jB}\,\mathrm dA_{iBkD}\,F_{lD},
+   * @f}
+   * the first two for prescribed components $i$ and the third for prescribed
+   * components $k$ only.
+   *
+   * Memory is allocated by initialize() only.
    */
   template <int dim>
   class NitscheTerms
@@ -83,6 +95,13 @@ namespace EBSMPM
                  const double         penalty);
 
     /**
+     * Allocate memory for groups of at most @p max_n_points points that see
+     * @p n_functions functions.
+     */
+    void
+    initialize(const unsigned int n_functions, const unsigned int max_n_points);
+
+    /**
      * Add to the residual of @p local, and overwrite its tangent if that is
      * wanted.
      *
@@ -95,15 +114,15 @@ namespace EBSMPM
     compute(const AssemblyTask               task,
             const BoundaryState<dim>        &boundary,
             const std::vector<EnergyBranch> &branches,
-            LocalSystem<dim>                &local) const;
+            LocalSystem<dim>                &local);
 
   private:
     /** What is known at a boundary point. */
     struct PointData
     {
       /** Values of the functions; their gradients, direction by direction. */
-      std::array<double, BSplineKernel<dim>::max_n_functions>       B;
-      std::array<double, dim * BSplineKernel<dim>::max_n_functions> G;
+      const double                   *B;
+      std::array<const double *, dim> G;
 
       /** The deformation gradient at the start of the step, and at its end. */
       Tensor<2, dim> F_n;
@@ -125,28 +144,43 @@ namespace EBSMPM
              const std::vector<EnergyBranch> &branches,
              const LocalSystem<dim>          &local,
              const unsigned int               k,
-             PointData                       &point) const;
+             PointData                       &point);
 
     /** Return $T^i_{kl}$. */
     static Tensor<2, dim>
     traction_derivative(const PointData &point, const unsigned int i);
 
-    /** Add the terms with a $\delta_{ij}$ or a $\delta_{ik}$. */
+    /** Add to the residual. */
     void
-    add_component(const AssemblyTask    task,
-                  const unsigned int    i,
-                  const Tensor<2, dim> &T,
-                  const PointData      &point,
-                  LocalSystem<dim>     &local) const;
+    add_residual(const PointData                       &point,
+                 const std::array<bool, dim>           &constrained,
+                 const std::array<Tensor<2, dim>, dim> &T,
+                 LocalSystem<dim>                      &local) const;
 
-    /** Add the term with the derivative of $\mathbf A$. */
+    /** Set the coefficients of the tangent at the <tt>k</tt>th point. */
     void
-    add_derivative_of_tangent(const PointData  &point,
-                              LocalSystem<dim> &local) const;
+    set_coefficients(const AssemblyTask                     task,
+                     const unsigned int                     k,
+                     const PointData                       &point,
+                     const std::array<bool, dim>           &constrained,
+                     const std::array<Tensor<2, dim>, dim> &T);
+
+    /** The array of $c_{ijkl}$ for pair number @p pair of $i\le k$. */
+    double &
+    coefficient(const unsigned int pair,
+                const unsigned int j,
+                const unsigned int l,
+                const unsigned int point);
 
     const Material<dim> &material;
     const Degradation   &degradation;
     const double         beta;
+
+    TangentProduct<dim, dim + 1> product;
+
+    /** The coefficients, an array over the points for each. */
+    unsigned int        max_points = 0;
+    std::vector<double> coefficients;
   };
 } // namespace EBSMPM
 

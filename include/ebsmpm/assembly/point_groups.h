@@ -83,7 +83,12 @@ namespace EBSMPM
     };
 
     /**
-     * Group the points.
+     * Group the points. Return false if the groups, the functions they read and
+     * the matrices $E$ are the same as before: no point has gone to another
+     * cell, no pattern has changed, and neither has the space, whose
+     * SplineSpace::n_changes() vouches for @p constraints and @p partitioner,
+     * too. Then, nothing is done. The answer is about the points of this
+     * process.
      *
      * @param points the points
      * @param patterns the pattern of each point, or an empty array if all read
@@ -91,7 +96,7 @@ namespace EBSMPM
      * @param space and @p constraints: the functions
      * @param partitioner of a scalar problem on the space
      */
-    void
+    bool
     reinit(const CellPoints<dim> &           points,
            const std::vector<Pattern> &      patterns,
            const SplineSpace<dim> &          space,
@@ -161,6 +166,27 @@ namespace EBSMPM
     std::vector<unsigned int> point_numbers;
     std::vector<unsigned int> function_numbers;
     std::vector<double>       extensions;
+
+    /** What the groups were made from. */
+    struct Origin
+    {
+      const SplineSpace<dim> *space     = nullptr;
+      unsigned int            n_changes = 0;
+      std::vector<typename CartesianLattice<dim>::Index> cells;
+      std::vector<unsigned int>                          levels;
+      std::vector<unsigned int>                          ends;
+      std::vector<Pattern>                               patterns;
+
+      bool
+      operator==(const Origin &other) const
+      {
+        return space == other.space && n_changes == other.n_changes &&
+               cells == other.cells && levels == other.levels &&
+               ends == other.ends && patterns == other.patterns;
+      }
+    };
+    Origin origin;
+
     unsigned int              n_per_cell = 0;
     unsigned int              max_n      = 0;
     unsigned int              max_points = 0;

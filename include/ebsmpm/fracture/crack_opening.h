@@ -21,12 +21,10 @@ namespace EBSMPM
   /** How far the lips of the discrete cracks are apart. */
   struct CrackOpening
   {
-    /** Number of places (functions) with material on both sides. */
-    unsigned int n_places = 0;
-
     /**
-     * The smallest opening, zero if there are no such places. It is negative
-     * where lips overlap: they have no contact.
+     * The smallest opening of all functions with material on both sides, zero
+     * if there are none. It is negative where lips overlap: they have no
+     * contact.
      */
     double smallest = 0.;
   };

@@ -180,6 +180,10 @@ namespace EBSMPM
     const std::vector<Pattern> &
     patterns() const;
 
+    /** Whether any point of any process reads a twin. */
+    bool
+    is_open() const;
+
     /** Which functions the boundary points read as twins. */
     const std::vector<Pattern> &
     boundary_patterns() const;
@@ -283,6 +287,7 @@ namespace EBSMPM
 
     std::vector<Pattern> point_patterns;
     std::vector<Pattern> boundary_point_patterns;
+    bool                 any_twin = false;
 
     unsigned int n_refused = 0;
   };

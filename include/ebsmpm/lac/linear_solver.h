@@ -12,6 +12,7 @@
 
 #include <ebsmpm/base/config.h>
 
+#include <ebsmpm/lac/renumbered_preconditioner.h>
 #include <ebsmpm/lac/reusable_preconditioner.h>
 #include <ebsmpm/lac/types.h>
 
@@ -30,9 +31,16 @@ namespace EBSMPM
    * the next solves, by the method of conjugate gradients. With the matrix it
    * was computed from, a factorisation makes one iteration of it. With others,
    * the number of iterations measures how much the matrix has changed, and once
-   * there are too many, the factorisation is renewed and the solve completed
-   * with the new one. So the caller need not decide when to factorise, and
-   * every solution is as accurate as asked for.
+   * the surplus is too large, the factorisation is renewed. So the caller need
+   * not decide when to factorise, and every solution is as accurate as asked
+   * for. It may even have other unknowns than those of today, if renumber()
+   * tells which is which.
+   *
+   * When is the surplus too large? Say that a new factorisation costs $R$
+   * iterations, and that the $n$ solves with the present one took $e_1,\dots,
+   * e_n$ iterations more than with a new one. As $e_i$ grows, the average cost
+   * $(R+e_1+\dots+e_n)/n$ of a solve first falls, and then rises. It is smallest
+   * when $e_n$ gets larger than the average: that is the moment.
    *
    * | Method    | preconditioner                      | where                |
    * | --------- | ----------------------------------- | -------------------- |
@@ -113,9 +121,10 @@ namespace EBSMPM
       unsigned int max_iterations = 500;
 
       /**
-       * By how many iterations a preconditioner computed from an earlier matrix
-       * may exceed what it needed when it was new; more, and it is renewed.
-       * With zero, it is renewed whenever there is one iteration more.
+       * What a new preconditioner costs, in iterations: $R$ above. A solve that
+       * exceeds the iterations of a new preconditioner by that number is
+       * completed with a new one. With zero, it is renewed whenever there is
+       * one iteration more.
        */
       unsigned int refresh_iterations = 15;
 
@@ -187,6 +196,24 @@ namespace EBSMPM
      */
     void
     set_near_null_space(const std::vector<LA::Vector> &vectors);
+
+    /**
+     * Tell that the unknowns are others now, so that the preconditioner can be
+     * used on, see RenumberedPreconditioner. Collective.
+     *
+     * @param former_rows for each unknown of today, what former_rows() said of
+     *   it, or zero if it is new
+     */
+    void
+    renumber(const LA::FieldVector &former_rows);
+
+    /**
+     * Return, for each unknown, one plus the number of the row that it had when
+     * the preconditioner was computed, or zero if there was none. Empty before
+     * the first call of renumber().
+     */
+    const LA::FieldVector &
+    former_rows() const;
 
     /**
      * Forget everything, in order to release memory.
@@ -267,6 +294,13 @@ namespace EBSMPM
     refresh(const LA::SparseMatrix &A);
 
     /**
+     * Return whether there is a preconditioner for a matrix, if not computed
+     * from it.
+     */
+    bool
+    can_be_reused(const LA::SparseMatrix &A) const;
+
+    /**
      * Iterate until the residual is small enough or the number of iterations
      * too large, and update the report.
      */
@@ -292,10 +326,19 @@ namespace EBSMPM
     std::unique_ptr<ReusablePreconditioner> preconditioner;
 
     /**
-     * Whether the preconditioner can be used, and for which rows.
+     * Whether the preconditioner can be used, and the rows of the matrix that
+     * it was computed from.
      */
     bool     is_initialized = false;
     IndexSet rows;
+
+    /**
+     * See former_rows(); whether they are others than the numbers of today; and
+     * the preconditioner for these.
+     */
+    LA::FieldVector                           former_row_numbers;
+    bool                                      is_renumbered = false;
+    std::unique_ptr<RenumberedPreconditioner> renumbered_preconditioner;
 
     /**
      * Whether the matrix that the preconditioner was computed from was found
@@ -304,9 +347,12 @@ namespace EBSMPM
     bool is_indefinite = false;
 
     /**
-     * The number of iterations with the new preconditioner.
+     * The number of iterations with the new preconditioner; the number of
+     * solves since then, and by how much they have exceeded it in all.
      */
     unsigned int iterations_when_new = 0;
+    unsigned int n_solves            = 0;
+    unsigned int surplus             = 0;
   };
 } // namespace EBSMPM
 

@@ -29,14 +29,15 @@ namespace EBSMPM
    * <tt>n_components*function+component</tt>, and one place is stored per pair
    * of functions.
    *
-   * Rows of other processes are left to the matrix class itself.
+   * Rows of other processes are kept here, in the same way, until compress()
+   * sends them, in messages whose contents have been agreed on by reinit().
    *
    * @code
    * SystemMatrix matrix;
    * matrix.reinit(functions, unknowns, n_components, lists);
    * matrix = 0;
    * for (l = 0; l < n_lists; ++l)
-   *   matrix.add(l, local_matrix);
+   *   matrix.add(l, local_matrix, stride);
    * matrix.compress();
    * @endcode
    */
@@ -69,13 +70,20 @@ namespace EBSMPM
     set_zero();
 
     /**
-     * Add a dense matrix.
+     * Add a symmetric local matrix. Nothing is allocated if all rows are own
+     * ones.
      *
      * @param list number of the list of functions that it couples
-     * @param values row by row, the unknowns of a function one after the other
+     * @param values <tt>values[i*stride + pair*n + j]</tt>, where <tt>n</tt> is
+     *   the size of the list, couples component $a$ of its function $i$ with
+     *   component $b$ of function $j$, and pairs $a\le b$ are in lexicographic
+     *   order
+     * @param stride distance between two rows
      */
     void
-    add(const unsigned int list, const double *values);
+    add(const unsigned int list,
+        const double      *values,
+        const unsigned int stride);
 
     /** Send contributions to rows of other processes. Collective. */
     void
@@ -85,11 +93,30 @@ namespace EBSMPM
     const LA::SparseMatrix &
     matrix() const;
 
-    /** Memory in bytes used for the places of the entries. */
+    /** Memory in bytes used for the places of entries and for rows of others. */
     std::size_t
     memory_consumption() const;
 
   private:
+    /**
+     * Agree with the other processes on what is sent.
+     *
+     * @param functions the partitioner
+     * @param ghost_rows for each function of another process, the global
+     *   numbers of those it couples with
+     */
+    void
+    set_up_messages(
+      const Utilities::MPI::Partitioner                       &functions,
+      const std::vector<std::vector<types::global_dof_index>> &ghost_rows);
+
+    /** Implementation of add(). */
+    template <unsigned int n_components>
+    void
+    add_components(const unsigned int list,
+                   const double      *values,
+                   const unsigned int stride);
+
     unsigned int n_components = 0;
     unsigned int n_owned      = 0;
 
@@ -114,8 +141,37 @@ namespace EBSMPM
     /** Global numbers of the functions that this process knows. */
     std::vector<types::global_dof_index> global_functions;
 
-    /** Scratch for the rows of other processes. */
-    std::vector<types::global_dof_index> columns;
+    /** Functions one after the other whose entries are neighbours in a row. */
+    struct Run
+    {
+      unsigned int begin;
+      unsigned int size;
+    };
+
+    /** Scratch for one row. */
+    std::vector<double> row_values;
+    std::vector<Run>    runs;
+
+    /** A part of an array that goes to another process, or comes from it. */
+    struct Message
+    {
+      unsigned int rank;
+      std::size_t  begin;
+      std::size_t  size;
+    };
+
+    /**
+     * The rows of functions of other processes, one after the other, where they
+     * begin, and to whom they go.
+     */
+    std::vector<double>      ghost_entries;
+    std::vector<std::size_t> ghost_row_begins;
+    std::vector<Message>     outgoing;
+
+    /** What others send, and where it belongs in @p entries. */
+    std::vector<double>      arrivals;
+    std::vector<std::size_t> arrival_places;
+    std::vector<Message>     incoming;
   };
 } // namespace EBSMPM
 

@@ -12,45 +12,15 @@
 
 #include <ebsmpm/base/config.h>
 
+#include <ebsmpm/materials/energy_split.h>
+#include <ebsmpm/materials/material_batch.h>
+
 #include <deal.II/base/tensor.h>
 
 #include <string>
 
 namespace EBSMPM
 {
-  /**
-   * Which part of the stored energy a crack can release.
-   */
-  enum class EnergySplit
-  {
-    /**
-     * The isochoric part always, the volumetric one only where the material is
-     * expanded, so that a closed crack still carries pressure.
-     */
-    volumetric_deviatoric,
-    /**
-     * All of it.
-     */
-    none
-  };
-
-
-
-  /**
-   * Which side of the switch of the energy split a point is on: by its state,
-   * or as told. The derivative of the stress jumps at the switch by four orders
-   * of magnitude where the material is broken, and Newton's method may go in
-   * circles around it. With the branches held, the problem is smooth.
-   */
-  enum class EnergyBranch : char
-  {
-    by_state,
-    expanded,
-    compressed
-  };
-
-
-
   /**
    * A hyperelastic material whose energy a phase-field crack degrades: pure
    * functions of the deformation gradient $\mathbf F$, without a mesh, a point
@@ -185,6 +155,14 @@ namespace EBSMPM
              const EnergyBranch    branch = EnergyBranch::by_state) const = 0;
 
     /**
+     * Compute stresses of several points, and tangents as well if
+     * @p with_tangent, see MaterialBatch. The default is to ask stress() and
+     * response() about one point after the other.
+     */
+    virtual void
+    respond(MaterialBatch<dim> &batch, const bool with_tangent) const;
+
+    /**
      * Return the derivative of the tangent in the direction @p W,
      * $\frac{\partial A_{iJkL}}{\partial F_{mN}} W_{mN}$. With
      * $\mathbf W = (\mathbf u-\bar{\mathbf u})\otimes\mathbf N$ this is what
@@ -195,6 +173,12 @@ namespace EBSMPM
     tangent_derivative(const Tensor<2, dim> &F,
                        const double          g,
                        const Tensor<2, dim> &W) const = 0;
+
+    /**
+     * Raise ExcSolverFailure unless @p J is positive and finite.
+     */
+    static void
+    check_determinant(const double J);
 
     /**
      * Return the bulk modulus $K$.

@@ -83,6 +83,10 @@ namespace EBSMPM
              Response             &response,
              const EnergyBranch    branch = EnergyBranch::by_state) const override;
 
+    /** Several points side by side, see Lanes. */
+    virtual void
+    respond(MaterialBatch<dim> &batch, const bool with_tangent) const override;
+
     virtual Tensor<4, dim>
     tangent_derivative(const Tensor<2, dim> &F,
                        const double          g,

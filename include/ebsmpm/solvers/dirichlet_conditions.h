@@ -10,8 +10,9 @@
 #ifndef ebsmpm_solvers_dirichlet_conditions_h
 #define ebsmpm_solvers_dirichlet_conditions_h
 
-#include <ebsmpm/assembly/point_state.h>
 #include <ebsmpm/particles/cell_points.h>
+
+#include <ebsmpm/assembly/point_state.h>
 
 #include <ebsmpm/solvers/boundary_formulas.h>
 
@@ -45,7 +46,7 @@ namespace EBSMPM
      * Raises ExcInput for a name that does not exist, or a formula that makes
      * no sense.
      */
-    DirichletConditions(const std::string &             text,
+    DirichletConditions(const std::string              &text,
                         const std::vector<std::string> &boundary_names);
 
     /**
@@ -55,7 +56,7 @@ namespace EBSMPM
     void
     apply(const double           load,
           const CellPoints<dim> &boundary_points,
-          BoundaryState<dim> &   boundary) const;
+          BoundaryState<dim>    &boundary) const;
 
     /**
      * Return $\partial\bar{\mathbf u}/\partial u$ at all boundary points, by

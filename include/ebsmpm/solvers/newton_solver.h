@@ -11,6 +11,7 @@
 #define ebsmpm_solvers_newton_solver_h
 
 #include <ebsmpm/base/config.h>
+
 #include <ebsmpm/lac/linear_solver.h>
 #include <ebsmpm/lac/types.h>
 
@@ -125,8 +126,8 @@ namespace EBSMPM
      * @param x the initial guess, and the solution
      */
     Report
-    solve(const Problem &  problem,
-          LinearSolver &   linear_solver,
+    solve(const Problem   &problem,
+          LinearSolver    &linear_solver,
           const double     scale,
           const double     tolerance,
           LA::FieldVector &x) const;
@@ -141,11 +142,11 @@ namespace EBSMPM
    * Solve a linear system given in the vectors of the assembly.
    */
   LinearSolver::Report
-  solve_linear_system(LinearSolver &          solver,
+  solve_linear_system(LinearSolver           &solver,
                       const LA::SparseMatrix &matrix,
-                      const LA::FieldVector & right_hand_side,
+                      const LA::FieldVector  &right_hand_side,
                       const double            relative_tolerance,
-                      LA::FieldVector &       solution);
+                      LA::FieldVector        &solution);
 } // namespace EBSMPM
 
 #endif

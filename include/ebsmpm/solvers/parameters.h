@@ -111,7 +111,8 @@ namespace EBSMPM
     {
       Extension();
 
-      double threshold = 0.1;
+      double threshold  = 0.1;
+      double hysteresis = 0.2;
     } extension;
 
     /** Section "Nitsche". */
@@ -145,7 +146,7 @@ namespace EBSMPM
 
       unsigned int maximum_passes = 1;
       double       tolerance      = 2e-3;
-      double       relaxation     = 1.6;
+      double       relaxation     = 100.;
     } staggered;
 
     /** Section "Newton". */

@@ -54,8 +54,24 @@ namespace EBSMPM
    *
    * The paper's algorithm (Miehe et al., 2010) is a single pass per step.
    * Otherwise, passes are repeated until the damage of no point changes by more
-   * than AdditionalData::tolerance (alternate minimisation), with
-   * over-relaxation of the damage that is taken back when the changes grow.
+   * than AdditionalData::tolerance (alternate minimisation).
+   *
+   * Passes are many where a crack begins to run: after a few of them, the
+   * updates of the damage, $\mathbf s_k$, are parallel, and get smaller (or, if
+   * the equilibrium is unstable, larger) by a factor close to one each time. So
+   * the damage goes by $\omega_k\mathbf s_k$, where
+   * @f[
+   *   \omega_k = \frac{\omega_{k-1}}{1-r_k}, \qquad
+   *   r_k = \frac{\mathbf s_k\cdot\mathbf s_{k-1}}
+   *              {\mathbf s_{k-1}\cdot\mathbf s_{k-1}}
+   * @f]
+   * leaves nothing of a single mode (Irons and Tuck, A version of the Aitken
+   * accelerator for computer iteration, 1969; relaxation by that number is
+   * common in fluid-structure interaction: Kuettler and Wall, 2008). It is
+   * used as long as $\mathbf s_k$ and $\mathbf s_{k-1}$ enclose an angle of
+   * less than 26 degrees, otherwise $\omega_k=1$; it grows by no more than a
+   * factor of three, up to AdditionalData::max_relaxation, and not so far that
+   * the damage changes by more than 0.15 at once.
    *
    * The points are not touched before accept(). A step that fails, which
    * solve() reports by an exception of type ExcSolverFailure, therefore leaves
@@ -86,6 +102,9 @@ namespace EBSMPM
        * deficient. */
       double extension_threshold = 0.1;
 
+      /** How far below it they may sink, see SplineSpace::reinit(). */
+      double extension_hysteresis = 0.2;
+
       /** Whether there is a damage equation. */
       bool damage = true;
 
@@ -99,7 +118,7 @@ namespace EBSMPM
       double tolerance = 1e-3;
 
       /** Largest factor of over-relaxation; one for none. */
-      double max_relaxation = 1.6;
+      double max_relaxation = 100.;
 
       /** Whether diffusive cracks become discrete. */
       bool partition = false;
@@ -276,9 +295,20 @@ namespace EBSMPM
     void
     build_displacement_space();
 
-    /** One solve for the damage; returns the largest change at a point. */
+    /**
+     * One solve for the damage; returns the largest change at a point. Factor
+     * and update of the last pass are given, those of this pass returned.
+     */
     double
-    solve_damage(const double relaxation, Report &report);
+    solve_damage(double          &relaxation,
+                 LA::FieldVector &last_update,
+                 Report          &report);
+
+    /** Return the factor of over-relaxation, see the class. */
+    double
+    next_relaxation(const double           relaxation,
+                    const LA::FieldVector &update,
+                    const LA::FieldVector &last_update) const;
 
     /** One solve for the displacement. */
     void
@@ -314,6 +344,11 @@ namespace EBSMPM
     CrackLabels<dim>    boundary_labels;
     std::vector<double> current_volume;
     std::vector<double> psi;
+
+    /** Where the points get to in this step, up to the last pass. */
+    typename DisplacementSystem<dim>::Update update;
+
+    typename SplineSpace<dim>::SupportTable d_supports;
 
     SplineSpace<dim>          u_space;
     SplineSpace<dim>          d_space;

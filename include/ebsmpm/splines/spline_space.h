@@ -19,6 +19,7 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -120,10 +121,21 @@ namespace EBSMPM
     /**
      * Number the functions in @p supports, those of all processes together.
      * Functions are standard if their total fraction is more than @p threshold.
-     * Collective.
+     * One that was standard before stays so until its fraction is no more than
+     * $1-$ @p hysteresis times that: otherwise, a body that moves changes its
+     * space nearly all the time. Collective.
+     *
+     * Return whether anything has changed but fractions. If not, everybody can
+     * keep what depends on numbers and classes; see also n_changes().
      */
-    void
-    reinit(const SupportTable &supports, const double threshold);
+    bool
+    reinit(const SupportTable &supports,
+           const double        threshold,
+           const double        hysteresis = 0.);
+
+    /** How often reinit() has changed anything. */
+    unsigned int
+    n_changes() const;
 
     /**
      * Return what is known about a function that this process sees, or a null
@@ -135,6 +147,10 @@ namespace EBSMPM
     /** Return the functions that this process sees. */
     const FunctionTable &
     functions() const;
+
+    /** The same, for those who want them to outlive the next reinit(). */
+    std::shared_ptr<const FunctionTable>
+    share_functions() const;
 
     /**
      * Return what is known about any functions; those that are exterior are
@@ -197,12 +213,39 @@ namespace EBSMPM
     communicator() const;
 
   private:
+    /** What reinit() may do to functions; the larger, the more. */
+    enum class Change : int
+    {
+      fractions,
+      sides,
+      functions
+    };
+
+    /** Decide about classes and owners. Collective. */
+    FunctionTable
+    classify(const SupportTable &supports,
+             const double        threshold,
+             const double        hysteresis) const;
+
+    /** Compare with the functions of this process. */
+    Change
+    compare(const FunctionTable &other) const;
+
+    /** Number the functions that this process owns. Collective. */
+    void
+    number(FunctionTable &functions);
+
+    /** Publish own functions, and learn the numbers of others. Collective. */
+    void
+    tell_others(FunctionTable &functions);
+
     const MPI_Comm              mpi_communicator;
     const CartesianLattice<dim> cell_lattice;
     const unsigned int          p;
 
-    FunctionTable                    table;
-    FunctionDirectory<dim, Function> directory;
+    std::shared_ptr<const FunctionTable> table;
+    FunctionDirectory<dim, Function>     directory;
+    unsigned int                         change_counter = 0;
 
     types::global_dof_index n_active_functions      = 0;
     types::global_dof_index n_independent_functions = 0;

@@ -1,0 +1,115 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#ifndef ebsmpm_base_lanes_h
+#define ebsmpm_base_lanes_h
+
+#include <ebsmpm/base/config.h>
+
+// With GCC and Linux on x86, kernels are compiled for several instruction sets,
+// and the best one for the machine is taken at run time: a portable binary, as
+// Debian builds them, thereby uses AVX where there is AVX. (deal.II's
+// VectorizedArray has the width that deal.II was compiled for.)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && \
+  defined(__linux__)
+#  define EBSMPM_HAVE_X86_TARGETS
+#  define EBSMPM_TARGET_AVX2 __attribute__((target("avx2,fma")))
+#  define EBSMPM_TARGET_AVX512 \
+    __attribute__((target("avx512f,avx512vl,avx2,fma")))
+#endif
+
+// What is called by the variants of a kernel must become part of each.
+#define EBSMPM_IN_EACH_TARGET inline __attribute__((always_inline))
+
+namespace EBSMPM
+{
+  /**
+   * Numbers next to each other in memory, as many as fit into a register of
+   * @p n_bytes: what the innermost loops of the assembly compute with.
+   *
+   * Left to itself with arrays, the compiler turns such loops into shuffles of
+   * pairs; with vectors that are longer than a register, it keeps them in
+   * memory. Both is several times slower.
+   *
+   * A kernel is a function template with the attribute EBSMPM_IN_EACH_TARGET
+   * and the parameter @p n_bytes. It is called from one function for each
+   * instruction set, which select_kernel() chooses from:
+   *
+   * @code
+   * template <unsigned int n_bytes>
+   * EBSMPM_IN_EACH_TARGET void add(const unsigned int n, double *x);
+   *
+   * EBSMPM_TARGET_AVX512 void add_avx512(const unsigned int n, double *x)
+   * { add<64>(n, x); }
+   * EBSMPM_TARGET_AVX2 void add_avx2(const unsigned int n, double *x)
+   * { add<32>(n, x); }
+   *
+   * static const auto best = select_kernel(add_avx512, add_avx2, add<16>);
+   * @endcode
+   */
+  template <unsigned int n_bytes>
+  struct Lanes
+  {
+    /** The vector. Arithmetic works as with numbers, lane by lane. */
+    typedef double type __attribute__((vector_size(n_bytes)));
+
+    /** Number of lanes. */
+    static constexpr unsigned int n = n_bytes / sizeof(double);
+
+    /** Read from memory, wherever it begins. */
+    static EBSMPM_IN_EACH_TARGET type
+    load(const double *memory)
+    {
+      return *reinterpret_cast<const in_memory *>(memory);
+    }
+
+    /** Write to memory. */
+    static EBSMPM_IN_EACH_TARGET void
+    store(const type &value, double *memory)
+    {
+      *reinterpret_cast<in_memory *>(memory) = value;
+    }
+
+  private:
+    typedef double in_memory
+      __attribute__((vector_size(n_bytes), aligned(8), may_alias));
+  };
+
+
+
+  /** The largest number of lanes. */
+  constexpr unsigned int max_n_lanes = 8;
+
+
+
+  /**
+   * Return the best variant of a kernel for the machine the program runs on.
+   */
+  template <typename Kernel>
+  inline Kernel
+  select_kernel(Kernel avx512, Kernel avx2, Kernel baseline)
+  {
+#ifdef EBSMPM_HAVE_X86_TARGETS
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
+      return avx512;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+      return avx2;
+#endif
+    (void)avx512;
+    (void)avx2;
+    return baseline;
+  }
+} // namespace EBSMPM
+
+#ifndef EBSMPM_HAVE_X86_TARGETS
+#  define EBSMPM_TARGET_AVX2
+#  define EBSMPM_TARGET_AVX512
+#endif
+
+#endif

@@ -1,0 +1,131 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+// Material::respond(): several points side by side give what stress() and
+// response() say about one after the other, in all dimensions, for all
+// materials and branches, for numbers of points that fill registers and that do
+// not, near the undeformed state and far away. A point with a NaN is noticed
+// among many, and one that is turned inside out, which only linear elasticity
+// does not mind.
+
+#include <ebsmpm/base/exceptions.h>
+
+#include <ebsmpm/materials/make_material.h>
+
+#include <cmath>
+#include <limits>
+
+#include "../tests.h"
+
+
+
+/** Fill a batch with points that are stretched, and sheared differently. */
+template <int dim>
+void
+fill(MaterialBatch<dim> &batch,
+     const unsigned int  n_points,
+     const double        stretch)
+{
+  batch.initialize(n_points);
+  batch.reinit(n_points);
+  for (unsigned int p = 0; p < n_points; ++p)
+    {
+      Tensor<2, dim> F   = stretch * unit_symmetric_tensor<dim>();
+      Tensor<2, dim> F_n = unit_symmetric_tensor<dim>();
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          {
+            F[i][j] += 0.1 * std::sin(1. + 7. * p + 3. * i + 11. * j);
+            F_n[i][j] += 0.1 * std::cos(5. * p + i + 4. * j);
+          }
+      batch.set(p,
+                F,
+                F_n,
+                0.1 + 0.01 * p,
+                1. / (1. + p),
+                p % 3 == 0 ? EnergyBranch::by_state :
+                p % 3 == 1 ? EnergyBranch::expanded :
+                             EnergyBranch::compressed);
+    }
+}
+
+
+
+template <int dim>
+void
+test(const std::string &name, const EnergySplit split)
+{
+  const auto material = make_material<dim>(name, split, 175., 80.77);
+  double     error    = 0.;
+  for (const double stretch : {0.6, 1., 1.7})
+    for (const unsigned int n : {1U, 4U, 9U, 16U})
+      for (const bool with_tangent : {false, true})
+        {
+          MaterialBatch<dim> batch, expected;
+          fill(batch, n, stretch);
+          fill(expected, n, stretch);
+          material->respond(batch, with_tangent);
+          // The base class asks about one point after the other.
+          material->Material<dim>::respond(expected, with_tangent);
+
+          const auto compare = [&](const double a, const double b) {
+            const double difference = std::abs(a - b) / 175.;
+            if (!(difference <= error))
+              error = difference;
+          };
+          for (unsigned int p = 0; p < n; ++p)
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                {
+                  compare(batch.stress(i, j)[p], expected.stress(i, j)[p]);
+                  if (with_tangent)
+                    for (unsigned int b = 0; b < batch.n_pairs; ++b)
+                      compare(batch.tangent(b, i, j)[p],
+                              expected.tangent(b, i, j)[p]);
+                }
+        }
+  deallog << dim << "d, " << name << ": "
+          << (error < 1e-12 ? "the same" : "FAILED, " + std::to_string(error))
+          << std::endl;
+
+  for (const double bad : {-1., 0., std::numeric_limits<double>::quiet_NaN()})
+    {
+      MaterialBatch<dim> batch;
+      fill(batch, 9, 1.);
+      Tensor<2, dim> F = unit_symmetric_tensor<dim>();
+      F[0][0]          = bad;
+      batch.set(
+        5, F, unit_symmetric_tensor<dim>(), 1., 1., EnergyBranch::by_state);
+      bool refused = false;
+      try
+        {
+          material->respond(batch, true);
+        }
+      catch (const ExcSolverFailure &)
+        {
+          refused = true;
+        }
+      deallog << (refused ? "  refused" : "  accepted") << std::endl;
+    }
+}
+
+
+
+int
+main()
+{
+  initlog();
+  for (const std::string name : {"neo-Hookean", "linear elastic"})
+    {
+      test<1>(name, EnergySplit::volumetric_deviatoric);
+      test<2>(name, EnergySplit::volumetric_deviatoric);
+      test<3>(name, EnergySplit::volumetric_deviatoric);
+      test<2>(name, EnergySplit::none);
+    }
+}
