@@ -65,15 +65,6 @@ namespace EBSMPM
 
   template <int dim>
   void
-  LocalSystem<dim>::clear_tangent()
-  {
-    std::fill(tangent_rows.begin(), tangent_rows.end(), 0.);
-  }
-
-
-
-  template <int dim>
-  void
   LocalSystem<dim>::distribute_residual(LA::FieldVector &vector) const
   {
     const unsigned int  m = group->n_functions;

@@ -82,19 +82,14 @@ namespace EBSMPM
     for (unsigned int d = 0; d < dim; ++d)
       point.G[d] = product.row(k, 1 + d);
 
-    std::array<Tensor<1, dim>, dim> gradient;
-    for (unsigned int I = 0; I < local.n_functions(); ++I)
-      for (unsigned int a = 0; a < dim; ++a)
-        for (unsigned int d = 0; d < dim; ++d)
-          gradient[a][d] += local.coefficient(I)[a] * point.G[d][I];
-
     const unsigned int q = local.point(k);
     point.F_n            = boundary.F[q];
-    point.F              = deformation<dim>(gradient, point.F_n);
-    point.N              = boundary.normal[q];
-    point.w              = mismatch(boundary, q, local.value(point.B));
-    point.A0             = boundary.area[q];
-    point.g              = degradation.value(boundary.damage[q]);
+    point.F =
+      deformation<dim>(local.gradient(point.G[0], product.stride()), point.F_n);
+    point.N  = boundary.normal[q];
+    point.w  = mismatch(boundary, q, local.value(point.B));
+    point.A0 = boundary.area[q];
+    point.g  = degradation.value(boundary.damage[q]);
     material.response(point.F, point.g, point.response, branch_of(branches, q));
     point.traction = point.response.P * point.N;
   }

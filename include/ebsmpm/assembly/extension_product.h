@@ -27,8 +27,7 @@ namespace EBSMPM
    * @code
    * ExtensionProduct product;
    * product.initialize(n_functions, max_n_unknown_functions, n_blocks);
-   * const double *R = product.compute(E, m, K, ldk); // rows are n_blocks*m
-   * long
+   * const double *R = product.compute(E, m, K, ldk);
    * @endcode
    *
    * Memory is allocated by initialize() only.

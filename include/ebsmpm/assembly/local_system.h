@@ -119,14 +119,13 @@ namespace EBSMPM
 
     /**
      * Compute values and gradients of all functions at a point of the group:
-     * <tt>G[d*n_functions()+i]</tt> is $\partial B_i/\partial x_d$, or
-     * <tt>G[d*stride+i]</tt> if a @p stride is given.
+     * <tt>G[d*stride+i]</tt> is $\partial B_i/\partial x_d$.
      */
     void
     values_and_gradients(const unsigned int k,
                          double            *B,
                          double            *G,
-                         const unsigned int stride = 0) const;
+                         const unsigned int stride) const;
 
     /** Return the coefficient of function @p i of the cell. */
     const Tensor<1, dim> &
@@ -138,7 +137,7 @@ namespace EBSMPM
 
     /** Return the gradients of its components, from those of the functions. */
     std::array<Tensor<1, dim>, dim>
-    gradient(const double *G) const;
+    gradient(const double *G, const unsigned int stride) const;
 
     /** Number of pairs of components $a\le b$. */
     static constexpr unsigned int n_pairs = dim * (dim + 1) / 2;
@@ -161,10 +160,6 @@ namespace EBSMPM
     /** Distance between two rows of the tangent. */
     unsigned int
     tangent_stride() const;
-
-    /** Set the tangent to zero. */
-    void
-    clear_tangent();
 
     /** Resolve the constraints and add the residual to a vector. */
     void
@@ -257,7 +252,7 @@ namespace EBSMPM
                                          const unsigned int stride) const
   {
     kernel.values_and_gradients(
-      points->unit_point(point(k)), inverse_h, B, G, stride > 0 ? stride : n);
+      points->unit_point(point(k)), inverse_h, B, G, stride);
   }
 
 
@@ -286,13 +281,13 @@ namespace EBSMPM
 
   template <int dim>
   inline std::array<Tensor<1, dim>, dim>
-  LocalSystem<dim>::gradient(const double *G) const
+  LocalSystem<dim>::gradient(const double *G, const unsigned int stride) const
   {
     std::array<Tensor<1, dim>, dim> result;
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int d = 0; d < dim; ++d)
-          result[a][d] += coefficients[i][a] * G[d * n + i];
+          result[a][d] += coefficients[i][a] * G[d * stride + i];
     return result;
   }
 

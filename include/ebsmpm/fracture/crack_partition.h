@@ -100,7 +100,8 @@ namespace EBSMPM
    *    a crack before, and it remains one: open lips look the same.
    * 6. Closure: a function on a ridge with $d>0.5$ between two separable ones,
    *    or between one and a free boundary (in 3-D, with nothing intact ahead),
-   *    within three cells, is separable as well. Single functions left over would carry load for ever.
+   *    within three cells, is separable as well. Single functions left over
+   *    would carry load for ever.
    * 7. A point with $\mathbf m_p\cdot\mathbf m_I<0$ reads the twin of the
    *    separable function $I$.
    *
