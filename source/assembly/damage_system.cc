@@ -107,7 +107,7 @@ namespace EBSMPM
 
     right_hand_side.zero_out_ghost_values();
     right_hand_side = 0.;
-    system_matrix.set_zero();
+    system_matrix.begin();
 
     unsigned int list = 0;
     for (const auto &group : material_groups.groups())
@@ -152,7 +152,10 @@ namespace EBSMPM
                                          X.data(),
                                          stride,
                                          X.data(),
-                                         product.data());
+                                         product.data(),
+                                         false,
+                                         1);
+        DenseKernels::complete_symmetric<1>(n, stride, product.data());
         distribute(material_groups,
                    group,
                    list++,

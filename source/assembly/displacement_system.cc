@@ -64,10 +64,29 @@ namespace EBSMPM
       return false;
     connected_pieces.clear();
 
+    // Boundary points mostly read the same functions as material points of the
+    // same cell, and add to the same local system.
+    partners = find_partners(*points,
+                             material_groups,
+                             *boundary_points,
+                             boundary_groups);
+    std::vector<bool> has_partner(boundary_groups.groups().size(), false);
+    for (const unsigned int partner : partners)
+      if (partner != numbers::invalid_unsigned_int)
+        has_partner[partner] = true;
+
     std::vector<SystemMatrix::List> lists;
-    for (const auto *groups : {&material_groups, &boundary_groups})
-      for (const auto &group : groups->groups())
-        lists.push_back({groups->functions(group), group.n_functions});
+    for (const auto &group : material_groups.groups())
+      lists.push_back({material_groups.functions(group), group.n_functions});
+    lone_boundary_groups.clear();
+    for (unsigned int b = 0; b < has_partner.size(); ++b)
+      if (!has_partner[b])
+        {
+          const auto &group = boundary_groups.groups()[b];
+          lone_boundary_groups.push_back(b);
+          lists.push_back(
+            {boundary_groups.functions(group), group.n_functions});
+        }
     const bool is_new = tangent.reinit(*functions, dim, lists);
 
     local.initialize(space,
@@ -184,7 +203,7 @@ namespace EBSMPM
                                             const LA::FieldVector    &increment,
                                             LA::FieldVector          &residual)
   {
-    tangent.set_zero();
+    tangent.begin();
     assemble(
       AssemblyTask::tangent, state, boundary, increment, residual, &tangent);
     tangent.compress();
@@ -200,7 +219,7 @@ namespace EBSMPM
     const LA::FieldVector    &increment,
     LA::FieldVector          &residual)
   {
-    tangent.set_zero();
+    tangent.begin();
     assemble(
       AssemblyTask::predictor, state, boundary, increment, residual, &tangent);
     tangent.compress();
@@ -261,7 +280,13 @@ namespace EBSMPM
                                       LA::FieldVector          &residual,
                                       SystemMatrix             *matrix) const
   {
-    unsigned int list = 0;
+    unsigned int list       = 0;
+    const auto   distribute = [&]() {
+      local.distribute_residual(residual);
+      if (task != AssemblyTask::residual)
+        local.distribute_tangent(list++, *matrix);
+    };
+
     for (unsigned int g = 0; g < material_groups.groups().size(); ++g)
       {
         local.reinit(*points, material_groups, material_groups.groups()[g]);
@@ -269,18 +294,23 @@ namespace EBSMPM
         elastic_terms.compute(task, state, branches, local);
         if (connected_pieces.is_free(g))
           add_mass(task, state);
-        local.distribute_residual(residual);
-        if (task != AssemblyTask::residual)
-          local.distribute_tangent(list++, *matrix);
+        if (partners[g] != numbers::invalid_unsigned_int)
+          {
+            local.go_on(*boundary_points,
+                        boundary_groups,
+                        boundary_groups.groups()[partners[g]]);
+            nitsche_terms.compute(task, boundary, boundary_branches, local);
+          }
+        distribute();
       }
-    for (const auto &group : boundary_groups.groups())
+    for (const unsigned int b : lone_boundary_groups)
       {
-        local.reinit(*boundary_points, boundary_groups, group);
+        local.reinit(*boundary_points,
+                     boundary_groups,
+                     boundary_groups.groups()[b]);
         local.gather(increment);
         nitsche_terms.compute(task, boundary, boundary_branches, local);
-        local.distribute_residual(residual);
-        if (task != AssemblyTask::residual)
-          local.distribute_tangent(list++, *matrix);
+        distribute();
       }
   }
 
@@ -303,11 +333,11 @@ namespace EBSMPM
         for (unsigned int i = 0; i < n; ++i)
           local.residual[i] += mass * B[i] * increment;
         if (task != AssemblyTask::residual)
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int i = 0; i < n; ++i)
-              for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = i; j < n; ++j)
+              for (unsigned int a = 0; a < dim; ++a)
                 local.tangent()[i * local.tangent_stride() +
-                                local.pair(a, a) * n + j] += mass * B[i] * B[j];
+                                (j * dim + a) * dim + a] += mass * B[i] * B[j];
       }
   }
 

@@ -16,13 +16,13 @@ namespace EBSMPM
   void
   ExtensionProduct::initialize(const unsigned int n_functions,
                                const unsigned int max_n_columns,
-                               const unsigned int n_blocks_)
+                               const unsigned int block_size)
   {
-    n        = n_functions;
-    n_blocks = n_blocks_;
+    n    = n_functions;
+    size = block_size;
     entries.reserve(n * max_n_columns);
-    half.resize(max_n_columns * n_blocks * n);
-    result.resize(max_n_columns * n_blocks * max_n_columns);
+    half.resize(max_n_columns * size * n);
+    result.resize(max_n_columns * size * max_n_columns);
   }
 
 
@@ -39,8 +39,8 @@ namespace EBSMPM
         if (E[I * m + i] != 0.)
           entries.push_back({I, i, E[I * m + i]});
 
-    // E^T K, all blocks at once...
-    const unsigned int length = n_blocks * n;
+    // E^T K, whole rows at once...
+    const unsigned int length = size * n;
     std::fill_n(half.begin(), m * length, 0.);
     for (const Entry &entry : entries)
       {
@@ -51,13 +51,15 @@ namespace EBSMPM
       }
 
     // ...and that times E.
-    std::fill_n(result.begin(), m * n_blocks * m, 0.);
-    for (unsigned int row = 0; row < m * n_blocks; ++row)
+    std::fill_n(result.begin(), m * m * size, 0.);
+    for (unsigned int row = 0; row < m; ++row)
       {
-        const double *from = half.data() + row * n;
-        double       *to   = result.data() + row * m;
+        const double *from = half.data() + row * length;
+        double       *to   = result.data() + row * m * size;
         for (const Entry &entry : entries)
-          to[entry.column] += entry.value * from[entry.row];
+          for (unsigned int k = 0; k < size; ++k)
+            to[entry.column * size + k] +=
+              entry.value * from[entry.row * size + k];
       }
     return result.data();
   }

@@ -28,9 +28,9 @@ namespace EBSMPM
     const unsigned int m = std::max(n, max_n_functions);
     coefficients.resize(n);
     residual.resize(n);
-    stride = DenseKernels::padded(n_pairs * n);
+    stride = DenseKernels::padded(dim * dim * n);
     tangent_rows.resize(n * stride);
-    extension_product.initialize(n, m, n_pairs);
+    extension_product.initialize(n, m, dim * dim);
   }
 
 
@@ -41,15 +41,26 @@ namespace EBSMPM
                            const PointGroups<dim>                 &groups_,
                            const typename PointGroups<dim>::Group &group_)
   {
-    points = &points_;
-    groups = &groups_;
-    group  = &group_;
-
+    go_on(points_, groups_, group_);
     inverse_h =
       space->lattice().cell_extents(points->cells()[group->cell].level);
     for (unsigned int d = 0; d < dim; ++d)
       inverse_h[d] = 1. / inverse_h[d];
     std::fill(residual.begin(), residual.end(), Tensor<1, dim>());
+    tangent_begun = false;
+  }
+
+
+
+  template <int dim>
+  void
+  LocalSystem<dim>::go_on(const CellPoints<dim>                  &points_,
+                          const PointGroups<dim>                 &groups_,
+                          const typename PointGroups<dim>::Group &group_)
+  {
+    points = &points_;
+    groups = &groups_;
+    group  = &group_;
   }
 
 
@@ -91,12 +102,13 @@ namespace EBSMPM
   LocalSystem<dim>::distribute_tangent(const unsigned int list,
                                        SystemMatrix      &matrix)
   {
+    DenseKernels::complete_symmetric<dim>(n, stride, tangent_rows.data());
     if (const double *E = groups->extension(*group))
       {
         const unsigned int m = group->n_functions;
         matrix.add(list,
                    extension_product.compute(E, m, tangent_rows.data(), stride),
-                   n_pairs * m);
+                   dim * dim * m);
       }
     else
       matrix.add(list, tangent_rows.data(), stride);

@@ -15,7 +15,7 @@ namespace EBSMPM
 {
   template <int dim>
   std::shared_ptr<const Utilities::MPI::Partitioner>
-  make_partitioner(const SplineSpace<dim> &         space,
+  make_partitioner(const SplineSpace<dim>          &space,
                    const AffineConstraints<double> &constraints,
                    const unsigned int               n_components)
   {
@@ -56,10 +56,10 @@ namespace EBSMPM
 
   template <int dim>
   bool
-  PointGroups<dim>::reinit(const CellPoints<dim> &            points,
-                           const std::vector<Pattern> &       patterns,
-                           const SplineSpace<dim> &           space,
-                           const AffineConstraints<double> &  constraints,
+  PointGroups<dim>::reinit(const CellPoints<dim>             &points,
+                           const std::vector<Pattern>        &patterns,
+                           const SplineSpace<dim>            &space,
+                           const AffineConstraints<double>   &constraints,
                            const Utilities::MPI::Partitioner &partitioner)
   {
     Assert(patterns.empty() || patterns.size() == points.n_points(),
@@ -104,9 +104,9 @@ namespace EBSMPM
             patterns_here.assign(patterns.begin() + cell.begin,
                                  patterns.begin() + cell.end);
             std::sort(patterns_here.begin(), patterns_here.end());
-            patterns_here.erase(
-              std::unique(patterns_here.begin(), patterns_here.end()),
-              patterns_here.end());
+            patterns_here.erase(std::unique(patterns_here.begin(),
+                                            patterns_here.end()),
+                                patterns_here.end());
           }
 
         for (const Pattern pattern : patterns_here)
@@ -126,9 +126,8 @@ namespace EBSMPM
             columns.clear();
             for (unsigned int i = 0; i < n_per_cell; ++i)
               {
-                const auto key =
-                  space.cell_function(cell.index, cell.level, i)
-                    .with_part((pattern >> i) & 1);
+                const auto key = space.cell_function(cell.index, cell.level, i)
+                                   .with_part((pattern >> i) & 1);
                 const auto *function = space.find(key);
                 Assert(function != nullptr,
                        ExcMessage("A point reads a function that does not "
@@ -141,7 +140,8 @@ namespace EBSMPM
                     plain = false;
                     for (const auto &term :
                          *constraints.get_constraint_entries(indices[i]))
-                      columns.push_back(partitioner.global_to_local(term.first));
+                      columns.push_back(
+                        partitioner.global_to_local(term.first));
                   }
               }
 
@@ -155,15 +155,14 @@ namespace EBSMPM
                 const unsigned int m = columns.size();
                 group.extension      = extensions.size();
                 extensions.resize(extensions.size() + n_per_cell * m, 0.);
-                double *   E = extensions.data() + group.extension;
-                const auto column_of =
-                  [&](const types::global_dof_index index) {
-                    return std::lower_bound(columns.begin(),
-                                            columns.end(),
-                                            partitioner.global_to_local(
-                                              index)) -
-                           columns.begin();
-                  };
+                double    *E         = extensions.data() + group.extension;
+                const auto column_of = [&](
+                                         const types::global_dof_index index) {
+                  return std::lower_bound(columns.begin(),
+                                          columns.end(),
+                                          partitioner.global_to_local(index)) -
+                         columns.begin();
+                };
                 for (unsigned int i = 0; i < n_per_cell; ++i)
                   if (indices[i] < space.n_independent())
                     E[i * m + column_of(indices[i])] = 1.;
@@ -187,8 +186,54 @@ namespace EBSMPM
 
 
 
+  template <int dim>
+  std::vector<unsigned int>
+  find_partners(const CellPoints<dim>  &points,
+                const PointGroups<dim> &groups,
+                const CellPoints<dim>  &other_points,
+                const PointGroups<dim> &others)
+  {
+    // Groups are sorted by cell, and by pattern.
+    const auto is_before = [](const CellPoints<dim>                  &points_a,
+                              const typename PointGroups<dim>::Group &a,
+                              const CellPoints<dim>                  &points_b,
+                              const typename PointGroups<dim>::Group &b) {
+      const auto &cell_a = points_a.cells()[a.cell].iterator;
+      const auto &cell_b = points_b.cells()[b.cell].iterator;
+      return cell_a != cell_b ? cell_a < cell_b : a.pattern < b.pattern;
+    };
+
+    std::vector<unsigned int> partners(groups.groups().size(),
+                                       numbers::invalid_unsigned_int);
+    unsigned int              o = 0;
+    for (unsigned int g = 0; g < partners.size(); ++g)
+      {
+        const auto &group = groups.groups()[g];
+        while (o < others.groups().size() &&
+               is_before(other_points, others.groups()[o], points, group))
+          ++o;
+        if (o < others.groups().size() &&
+            !is_before(points, group, other_points, others.groups()[o]))
+          partners[g] = o;
+      }
+    return partners;
+  }
+
+
+
   template class PointGroups<2>;
   template class PointGroups<3>;
+
+  template std::vector<unsigned int>
+  find_partners(const CellPoints<2> &,
+                const PointGroups<2> &,
+                const CellPoints<2> &,
+                const PointGroups<2> &);
+  template std::vector<unsigned int>
+  find_partners(const CellPoints<3> &,
+                const PointGroups<3> &,
+                const CellPoints<3> &,
+                const PointGroups<3> &);
 
   template std::shared_ptr<const Utilities::MPI::Partitioner>
   make_partitioner<2>(const SplineSpace<2> &,

@@ -20,10 +20,9 @@ namespace EBSMPM
                                           const unsigned int max_n_points)
   {
     const unsigned int n_points = std::max(max_n_points, 1U);
-    const unsigned int c_stride =
-      DenseKernels::padded(LocalSystem<dim>::n_pairs * n_functions);
-    n        = n_functions;
-    x_stride = DenseKernels::padded(n);
+    const unsigned int c_stride = DenseKernels::padded(dim * dim * n_functions);
+    n                           = n_functions;
+    x_stride                    = DenseKernels::padded(n);
     X.assign(n_rows * n_points * x_stride, 0.);
     cX.assign(n_rows * n_points * c_stride + DenseKernels::padding, 0.);
   }
@@ -37,22 +36,23 @@ namespace EBSMPM
                                        const unsigned int ldc,
                                        LocalSystem<dim>  &local)
   {
-    DenseKernels::combine_rows<n_rows>(n_points,
-                                       LocalSystem<dim>::n_pairs,
-                                       n,
-                                       c,
-                                       ldc,
-                                       X.data(),
-                                       x_stride,
-                                       cX.data(),
-                                       local.tangent_stride());
+    DenseKernels::combine_rows<dim, n_rows>(n_points,
+                                            n,
+                                            c,
+                                            ldc,
+                                            X.data(),
+                                            x_stride,
+                                            cX.data(),
+                                            local.tangent_stride());
     DenseKernels::transposed_product(n_rows * n_points,
                                      n,
                                      local.tangent_stride(),
                                      X.data(),
                                      x_stride,
                                      cX.data(),
-                                     local.tangent());
+                                     local.tangent(),
+                                     local.has_tangent(),
+                                     dim * dim);
   }
 
 

@@ -7,6 +7,8 @@
 //
 // -----------------------------------------------------------------------------
 
+#include <ebsmpm/base/lanes.h>
+
 #include <ebsmpm/lac/system_matrix.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -16,15 +18,81 @@
 #include <Epetra_Map.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 
 namespace EBSMPM
 {
+  /** Stores, for each function, the lists and its positions there. */
+  class SystemMatrix::Occurrences
+  {
+  public:
+    Occurrences(const unsigned int               n_functions,
+                const std::vector<unsigned int> &list_functions,
+                const std::vector<std::size_t>  &list_begins)
+      : begins(n_functions + 1, 0)
+      , places(list_functions.size())
+    {
+      for (const auto function : list_functions)
+        ++begins[function + 1];
+      std::partial_sum(begins.begin(), begins.end(), begins.begin());
+      std::vector<unsigned int> next(begins.begin(), begins.end() - 1);
+      for (unsigned int l = 0; l + 1 < list_begins.size(); ++l)
+        for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
+          places[next[list_functions[k]]++] = {
+            l, static_cast<unsigned int>(k - list_begins[l])};
+    }
+
+    /** Call <tt>visit(list, position)</tt> for a function, list by list. */
+    template <typename Visitor>
+    void
+    visit(const unsigned int function, const Visitor &visitor) const
+    {
+      for (unsigned int k = begins[function]; k < begins[function + 1]; ++k)
+        visitor(places[k].list, places[k].position);
+    }
+
+  private:
+    struct Place
+    {
+      unsigned int list;
+      unsigned int position;
+    };
+    std::vector<unsigned int> begins;
+    std::vector<Place>        places;
+  };
+
+
+
   bool
   SystemMatrix::reinit(const Utilities::MPI::Partitioner &functions,
-                       const unsigned int                 n_components_,
+                       const unsigned int                 n_components,
                        const std::vector<List>           &lists)
+  {
+    // Most often, nothing has changed since the last load step.
+    const bool is_new = remember(functions, n_components, lists);
+    if (Utilities::MPI::max(is_new ? 1U : 0U,
+                            functions.get_mpi_communicator()) == 0)
+      return false;
+
+    const Occurrences occurrences(global_functions.size(),
+                                  list_functions,
+                                  list_begins);
+    build_matrix(functions, occurrences);
+    find_runs(functions, occurrences);
+    find_shuffled_rows();
+    assign_slots(occurrences);
+    set_up_messages(functions);
+    return true;
+  }
+
+
+
+  bool
+  SystemMatrix::remember(const Utilities::MPI::Partitioner &functions,
+                         const unsigned int                 n_components_,
+                         const std::vector<List>           &lists)
   {
     const unsigned int n_known =
       functions.locally_owned_size() + functions.n_ghost_indices();
@@ -42,50 +110,27 @@ namespace EBSMPM
         new_list_begins.push_back(new_list_functions.size());
       }
 
-    // Most often, nothing has changed since the last load step.
     const bool is_new = n_components != n_components_ ||
                         n_owned != functions.locally_owned_size() ||
                         new_global_functions != global_functions ||
                         new_list_functions != list_functions ||
                         new_list_begins != list_begins;
-    if (Utilities::MPI::max(is_new ? 1U : 0U,
-                            functions.get_mpi_communicator()) == 0)
-      return false;
-
-    n_components          = n_components_;
-    n_owned               = functions.locally_owned_size();
-    const unsigned int nc = n_components;
+    n_components = n_components_;
+    n_owned      = functions.locally_owned_size();
     global_functions.swap(new_global_functions);
     list_functions.swap(new_list_functions);
     list_begins.swap(new_list_begins);
+    return is_new;
+  }
 
-    // Where each function occurs: in which lists, and at which position there.
-    struct Occurrence
-    {
-      unsigned int list;
-      unsigned int position;
-    };
-    std::vector<unsigned int> occurrence_begins(n_known + 1, 0);
-    for (const auto function : list_functions)
-      ++occurrence_begins[function + 1];
-    std::partial_sum(occurrence_begins.begin(),
-                     occurrence_begins.end(),
-                     occurrence_begins.begin());
-    std::vector<Occurrence> occurrences(list_functions.size());
-    {
-      std::vector<unsigned int> next(occurrence_begins.begin(),
-                                     occurrence_begins.end() - 1);
-      for (unsigned int l = 0; l < lists.size(); ++l)
-        for (unsigned int i = 0; i < lists[l].size; ++i)
-          occurrences[next[lists[l].begin[i]]++] = {l, i};
-    }
-    const auto for_each_occurrence = [&](const unsigned int function,
-                                         const auto        &visit) {
-      for (unsigned int k = occurrence_begins[function];
-           k < occurrence_begins[function + 1];
-           ++k)
-        visit(occurrences[k].list, occurrences[k].position);
-    };
+
+
+  void
+  SystemMatrix::build_matrix(const Utilities::MPI::Partitioner &functions,
+                             const Occurrences                 &occurrences)
+  {
+    const unsigned int nc      = n_components;
+    const unsigned int n_known = global_functions.size();
 
     // Couple functions first, and their components afterwards.
     const IndexSet &owned    = functions.locally_owned_range();
@@ -94,18 +139,18 @@ namespace EBSMPM
     DynamicSparsityPattern                            coupling(functions.size(),
                                     functions.size(),
                                     relevant);
-    std::vector<std::vector<types::global_dof_index>> ghost_rows;
     std::vector<types::global_dof_index>              row;
+    std::vector<std::vector<types::global_dof_index>> ghost_rows;
     std::vector<unsigned int> seen_by(n_known, numbers::invalid_unsigned_int);
     for (unsigned int f = 0; f < n_known; ++f)
       {
         row.clear();
-        for_each_occurrence(f, [&](const unsigned int l, const unsigned int) {
-          for (unsigned int j = 0; j < lists[l].size; ++j)
-            if (seen_by[lists[l].begin[j]] != f)
+        occurrences.visit(f, [&](const unsigned int l, const unsigned int) {
+          for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
+            if (seen_by[list_functions[k]] != f)
               {
-                seen_by[lists[l].begin[j]] = f;
-                row.push_back(global_functions[lists[l].begin[j]]);
+                seen_by[list_functions[k]] = f;
+                row.push_back(global_functions[list_functions[k]]);
               }
         });
         std::sort(row.begin(), row.end());
@@ -118,99 +163,200 @@ namespace EBSMPM
                                                functions.get_mpi_communicator(),
                                                relevant);
 
+    // Rows of other processes have the columns that we know.
+    row_functions.clear();
+    row_functions_begins.assign(1, 0);
+    for (unsigned int f = 0; f < n_known; ++f)
+      {
+        if (f < n_owned)
+          for (auto entry = coupling.begin(global_functions[f]);
+               entry != coupling.end(global_functions[f]);
+               ++entry)
+            row_functions.push_back(entry->column());
+        else
+          row_functions.insert(row_functions.end(),
+                               ghost_rows[f - n_owned].begin(),
+                               ghost_rows[f - n_owned].end());
+        row_functions_begins.push_back(row_functions.size());
+      }
+
     IndexSet rows(nc * functions.size());
-    if (owned.n_elements() > 0)
-      rows.add_range(nc * owned.nth_index_in_set(0),
-                     nc * (owned.nth_index_in_set(0) + n_owned));
+    if (n_owned > 0)
+      rows.add_range(nc * global_functions[0],
+                     nc * (global_functions[0] + n_owned));
     rows.compress();
     DynamicSparsityPattern sparsity(rows.size(), rows.size(), rows);
-    for (const auto i : owned)
+    for (unsigned int f = 0; f < n_owned; ++f)
       {
         row.clear();
-        for (auto entry = coupling.begin(i); entry != coupling.end(i); ++entry)
+        for (std::size_t k = row_functions_begins[f];
+             k < row_functions_begins[f + 1];
+             ++k)
           for (unsigned int c = 0; c < nc; ++c)
-            row.push_back(nc * entry->column() + c);
+            row.push_back(nc * row_functions[k] + c);
         for (unsigned int c = 0; c < nc; ++c)
-          sparsity.add_entries(nc * i + c, row.begin(), row.end(), true);
+          sparsity.add_entries(nc * global_functions[f] + c,
+                               row.begin(),
+                               row.end(),
+                               true);
       }
     sparse_matrix.reinit(
       rows, rows, sparsity, functions.get_mpi_communicator(), false);
 
-    // Raw access to the rows we own. The columns of a row are sorted by their
-    // local number, and those of the components of a function are consecutive,
-    // except that Epetra shuffles the columns of other processes if there is
-    // more than one of these: it sorts them by process, with a sort that is not
-    // stable.
     const Epetra_CrsMatrix &epetra = sparse_matrix.trilinos_matrix();
     int                    *begins, *column_numbers;
     const int               ierr =
       epetra.ExtractCrsDataPointers(begins, column_numbers, entries);
     AssertThrow(ierr == 0, ExcInternalError());
     row_begins = begins;
-
-    std::vector<int> column_of(nc * n_known);
-    for (unsigned int i = 0; i < n_known; ++i)
-      for (unsigned int c = 0; c < nc; ++c)
-        column_of[nc * i + c] =
-          epetra.LCID(static_cast<int>(nc * global_functions[i] + c));
-
-    // The places of a list, row by row, counted from the begin of the row.
-    place_begins.assign(1, 0);
-    for (const auto &list : lists)
-      place_begins.push_back(place_begins.back() + list.size * list.size);
-    places.assign(place_begins.back(), -1);
-    scattered_places.clear();
-    std::vector<int> place_of(epetra.NumMyCols());
-    for (unsigned int f = 0; f < n_owned; ++f)
-      {
-        const int *begin = column_numbers + begins[nc * f];
-        const int *end   = column_numbers + begins[nc * f + 1];
-        for (const int *column = begin; column != end; ++column)
-          place_of[*column] = column - begin;
-
-        for_each_occurrence(f, [&](const unsigned int l, const unsigned int i) {
-          int *place = places.data() + place_begins[l] + i * lists[l].size;
-          for (unsigned int j = 0; j < lists[l].size; ++j)
-            {
-              const int *columns_j = column_of.data() + nc * lists[l].begin[j];
-              bool       consecutive = true;
-              for (unsigned int b = 1; b < nc; ++b)
-                consecutive &= (place_of[columns_j[b]] ==
-                                place_of[columns_j[0]] + static_cast<int>(b));
-              if (consecutive)
-                place[j] = place_of[columns_j[0]];
-              else
-                {
-                  place[j] = -1 - static_cast<int>(scattered_places.size());
-                  for (unsigned int b = 0; b < nc; ++b)
-                    scattered_places.push_back(place_of[columns_j[b]]);
-                }
-            }
-        });
-      }
-    // In rows of others, the components of a function are neighbours anyway.
-    std::vector<int> local_place(n_known);
-    for (unsigned int f = n_owned; f < n_known; ++f)
-      {
-        const auto &ghost_row = ghost_rows[f - n_owned];
-        for (unsigned int k = 0; k < ghost_row.size(); ++k)
-          local_place[functions.global_to_local(ghost_row[k])] = nc * k;
-        for_each_occurrence(f, [&](const unsigned int l, const unsigned int i) {
-          int *place = places.data() + place_begins[l] + i * lists[l].size;
-          for (unsigned int j = 0; j < lists[l].size; ++j)
-            place[j] = local_place[lists[l].begin[j]];
-        });
-      }
-    set_up_messages(functions, ghost_rows);
-    return true;
   }
 
 
 
   void
-  SystemMatrix::set_up_messages(
-    const Utilities::MPI::Partitioner                       &functions,
-    const std::vector<std::vector<types::global_dof_index>> &ghost_rows)
+  SystemMatrix::find_runs(const Utilities::MPI::Partitioner &functions,
+                          const Occurrences                 &occurrences)
+  {
+    // The columns of a list, row by row.
+    const unsigned int n_lists = list_begins.size() - 1;
+    const auto         size_of = [&](const unsigned int l) {
+      return list_begins[l + 1] - list_begins[l];
+    };
+    std::vector<std::size_t> begins(1, 0);
+    for (unsigned int l = 0; l < n_lists; ++l)
+      begins.push_back(begins.back() + size_of(l) * size_of(l));
+    std::vector<std::uint16_t> columns(begins.back());
+    std::vector<std::uint16_t> column_of(global_functions.size());
+    for (unsigned int f = 0; f < global_functions.size(); ++f)
+      {
+        const std::size_t first = row_functions_begins[f];
+        const std::size_t width = row_functions_begins[f + 1] - first;
+        AssertThrow(width <= std::numeric_limits<std::uint16_t>::max(),
+                    ExcInternalError());
+        // Functions of other processes that only others see are not known here.
+        for (unsigned int c = 0; c < width; ++c)
+          if (functions.in_local_range(row_functions[first + c]) ||
+              functions.is_ghost_entry(row_functions[first + c]))
+            column_of[functions.global_to_local(row_functions[first + c])] = c;
+        occurrences.visit(f, [&](const unsigned int l, const unsigned int i) {
+          for (unsigned int j = 0; j < size_of(l); ++j)
+            columns[begins[l] + i * size_of(l) + j] =
+              column_of[list_functions[list_begins[l] + j]];
+        });
+      }
+
+    // Functions are numbered along lines of the lattice.
+    runs.clear();
+    run_begins.assign(1, 0);
+    for (unsigned int l = 0; l < n_lists; ++l)
+      {
+        const std::uint16_t *column = columns.data() + begins[l];
+        for (unsigned int i = 0; i < size_of(l); ++i)
+          for (unsigned int j = 0; j < size_of(l); ++j, ++column)
+            if (j > 0 && column[0] == column[-1] + 1)
+              ++runs.back().size;
+            else
+              runs.push_back({column[0], 1});
+        run_begins.push_back(runs.size());
+      }
+  }
+
+
+
+  void
+  SystemMatrix::find_shuffled_rows()
+  {
+    // The columns of a row of Epetra's matrix are sorted by their local number,
+    // except for those of other processes if there is more than one of these:
+    // it sorts them by process, with a sort that is not stable.
+    const Epetra_CrsMatrix &epetra = sparse_matrix.trilinos_matrix();
+    int                    *begins, *column_numbers;
+    double                 *values;
+    epetra.ExtractCrsDataPointers(begins, column_numbers, values);
+
+    const unsigned int nc = n_components;
+    std::vector<int>   place_of(epetra.NumMyCols());
+    shuffled_begins.assign(n_owned, numbers::invalid_unsigned_int);
+    shuffled_places.clear();
+    for (unsigned int f = 0; f < n_owned; ++f)
+      {
+        const int first = begins[nc * f];
+        for (int k = first; k < begins[nc * f + 1]; ++k)
+          place_of[column_numbers[k]] = k - first;
+
+        const unsigned int begin       = shuffled_places.size();
+        bool               is_shuffled = false;
+        for (std::size_t k = row_functions_begins[f];
+             k < row_functions_begins[f + 1];
+             ++k)
+          for (unsigned int b = 0; b < nc; ++b)
+            {
+              const int place = place_of[epetra.LCID(
+                static_cast<int>(nc * row_functions[k] + b))];
+              is_shuffled |=
+                place != static_cast<int>(shuffled_places.size() - begin);
+              shuffled_places.push_back(place);
+            }
+        if (is_shuffled)
+          shuffled_begins[f] = begin;
+        else
+          shuffled_places.resize(begin);
+      }
+  }
+
+
+
+  void
+  SystemMatrix::assign_slots(const Occurrences &occurrences)
+  {
+    const unsigned int n_known = global_functions.size();
+    std::size_t        width   = 0;
+    slots.assign(n_known, 0);
+    first_lists.assign(n_known, 1);
+    last_lists.assign(n_known, 0);
+    for (unsigned int f = 0; f < n_known; ++f)
+      {
+        width         = std::max(width,
+                         row_functions_begins[f + 1] - row_functions_begins[f]);
+        bool is_first = true;
+        occurrences.visit(f, [&](const unsigned int l, const unsigned int) {
+          if (is_first)
+            first_lists[f] = l;
+          is_first      = false;
+          last_lists[f] = l;
+        });
+      }
+
+    // The slot that was left last is taken first: it is in the caches.
+    std::vector<unsigned int> free_slots;
+    unsigned int              n_slots = 0, max_size = 0;
+    for (unsigned int l = 0; l + 1 < list_begins.size(); ++l)
+      {
+        for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
+          {
+            const unsigned int f = list_functions[k];
+            if (first_lists[f] != l)
+              continue;
+            if (free_slots.empty())
+              free_slots.push_back(n_slots++);
+            slots[f] = free_slots.back();
+            free_slots.pop_back();
+          }
+        for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
+          if (last_lists[list_functions[k]] == l)
+            free_slots.push_back(slots[list_functions[k]]);
+        max_size =
+          std::max<unsigned int>(max_size, list_begins[l + 1] - list_begins[l]);
+      }
+    slot_size = n_components * n_components * width;
+    open_rows.resize(n_slots * slot_size);
+    row_pointers.resize(max_size);
+  }
+
+
+
+  void
+  SystemMatrix::set_up_messages(const Utilities::MPI::Partitioner &functions)
   {
     const unsigned int nc = n_components;
 
@@ -225,18 +371,20 @@ namespace EBSMPM
         auto             &pattern = patterns[target.first];
         for (unsigned int k = 0; k < target.second; ++k, ++g)
           {
+            const std::size_t row_begin = row_functions_begins[n_owned + g];
+            const std::size_t row_end   = row_functions_begins[n_owned + g + 1];
             pattern.push_back(global_functions[n_owned + g]);
-            pattern.push_back(ghost_rows[g].size());
+            pattern.push_back(row_end - row_begin);
             pattern.insert(pattern.end(),
-                           ghost_rows[g].begin(),
-                           ghost_rows[g].end());
+                           row_functions.begin() + row_begin,
+                           row_functions.begin() + row_end);
             ghost_row_begins.push_back(ghost_row_begins.back() +
-                                       nc * nc * ghost_rows[g].size());
+                                       nc * nc * (row_end - row_begin));
           }
         outgoing.push_back(
           {target.first, begin, ghost_row_begins.back() - begin});
       }
-    AssertDimension(g, ghost_rows.size());
+    AssertDimension(n_owned + g, global_functions.size());
     ghost_entries.assign(ghost_row_begins.back(), 0.);
 
     const Epetra_CrsMatrix &epetra = sparse_matrix.trilinos_matrix();
@@ -279,10 +427,14 @@ namespace EBSMPM
 
 
   void
-  SystemMatrix::set_zero()
+  SystemMatrix::begin()
   {
-    sparse_matrix = 0.;
-    std::fill(ghost_entries.begin(), ghost_entries.end(), 0.);
+    next_list = 0;
+    for (unsigned int f = 0; f < n_owned; ++f)
+      if (last_lists[f] < first_lists[f])
+        std::fill(entries + row_begins[n_components * f],
+                  entries + row_begins[n_components * (f + 1)],
+                  0.);
   }
 
 
@@ -292,103 +444,113 @@ namespace EBSMPM
                     const double      *values,
                     const unsigned int stride)
   {
-    switch (n_components)
+    AssertIndexRange(list + 1, list_begins.size());
+    Assert(list >= next_list, ExcMessage("Lists have to be in their order."));
+    for (; next_list < list; ++next_list)
+      add_list(next_list, nullptr, 0);
+    add_list(next_list++, values, stride);
+  }
+
+
+
+  inline double *
+  SystemMatrix::open_row(const unsigned int function)
+  {
+    return open_rows.data() + slots[function] * slot_size;
+  }
+
+
+
+  void
+  SystemMatrix::close_row(const unsigned int f)
+  {
+    const unsigned int nc = n_components;
+    const std::size_t  width =
+      row_functions_begins[f + 1] - row_functions_begins[f];
+    const int *places =
+      (f < n_owned && shuffled_begins[f] != numbers::invalid_unsigned_int) ?
+        shuffled_places.data() + shuffled_begins[f] :
+        nullptr;
+    for (unsigned int a = 0; a < nc; ++a)
       {
-        case 1:
-          add_components<1>(list, values, stride);
-          break;
-        case 2:
-          add_components<2>(list, values, stride);
-          break;
-        case 3:
-          add_components<3>(list, values, stride);
-          break;
-        default:
-          Assert(false, ExcNotImplemented());
+        const double *from = open_row(f) + nc * a;
+        double       *to   = (f < n_owned) ?
+                               entries + row_begins[nc * f + a] :
+                               ghost_entries.data() + ghost_row_begins[f - n_owned] +
+                         a * nc * width;
+        for (std::size_t k = 0; k < width; ++k, from += nc * nc)
+          for (unsigned int b = 0; b < nc; ++b)
+            to[places == nullptr ? nc * k + b : places[nc * k + b]] = from[b];
       }
   }
 
 
 
-  template <unsigned int nc>
-  void
-  SystemMatrix::add_components(const unsigned int list,
-                               const double      *values,
-                               const unsigned int stride)
+  namespace
   {
-    AssertIndexRange(list + 1, list_begins.size());
-    const unsigned int  n     = list_begins[list + 1] - list_begins[list];
-    const unsigned int *f     = list_functions.data() + list_begins[list];
-    const int          *place = places.data() + place_begins[list];
-    const auto          pair  = [](const unsigned int a, const unsigned int b) {
-      return a * nc - a * (a + 1) / 2 + b;
-    };
-
-    const auto row_of = [&](const unsigned int function, const unsigned int a) {
-      if (function < n_owned)
-        return entries + row_begins[nc * function + a];
-      const std::size_t *begin = &ghost_row_begins[function - n_owned];
-      return ghost_entries.data() + begin[0] + a * (begin[1] - begin[0]) / nc;
-    };
-
-    row_values.resize(nc * n);
-    runs.resize(n);
-    for (unsigned int i = 0; i < n; ++i, place += n)
+    /**
+     * Add a local matrix of n x n blocks to rows, along runs of columns that
+     * are neighbours.
+     */
+    struct AddRuns
+    {
+      template <unsigned int n_bytes, typename Run>
+      static EBSMPM_IN_EACH_TARGET void
+      run(const unsigned int n,
+          const unsigned int block_size,
+          const double      *values,
+          const unsigned int stride,
+          const Run         *run,
+          double *const     *rows)
       {
-        // Functions are numbered along lines of the lattice.
-        unsigned int n_runs = 0;
-        for (unsigned int j = 0; j < n; ++j)
-          if (n_runs > 0 && place[j] >= 0 && place[j - 1] >= 0 &&
-              place[j] == place[j - 1] + static_cast<int>(nc))
-            ++runs[n_runs - 1].size;
-          else
-            runs[n_runs++] = {j, 1};
-
-        // The next rows are on their way while these are added to.
-        if (i + 1 < n)
-          for (unsigned int a = 0; a < nc; ++a)
+        using L = Lanes<n_bytes>;
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; j += run->size, ++run)
             {
-              const double *row = row_of(f[i + 1], a);
-              for (unsigned int j = 0; j < n; j += 3)
-                if (place[n + j] >= 0)
-                  {
-                    __builtin_prefetch(row + place[n + j], 1);
-                    __builtin_prefetch(row + place[n + j] + 3 * nc - 1, 1);
-                  }
+              const double      *from   = values + i * stride + j * block_size;
+              double            *to     = rows[i] + run->column * block_size;
+              const unsigned int length = run->size * block_size;
+
+              unsigned int k = 0;
+              for (; k + L::n <= length; k += L::n)
+                L::store(L::load(to + k) + L::load(from + k), to + k);
+              for (; k < length; ++k)
+                to[k] += from[k];
             }
-
-        for (unsigned int a = 0; a < nc; ++a)
-          {
-            for (unsigned int b = 0; b < a; ++b)
-              {
-                const double *column = values + pair(b, a) * n + i;
-                for (unsigned int j = 0; j < n; ++j)
-                  row_values[nc * j + b] = column[j * stride];
-              }
-            for (unsigned int b = a; b < nc; ++b)
-              {
-                const double *row = values + i * stride + pair(a, b) * n;
-                for (unsigned int j = 0; j < n; ++j)
-                  row_values[nc * j + b] = row[j];
-              }
-
-            double *const row = row_of(f[i], a);
-            for (unsigned int r = 0; r < n_runs; ++r)
-              {
-                const unsigned int j    = runs[r].begin;
-                const double      *from = row_values.data() + nc * j;
-                if (place[j] >= 0)
-                  {
-                    double *const to = row + place[j];
-                    for (unsigned int k = 0; k < nc * runs[r].size; ++k)
-                      to[k] += from[k];
-                  }
-                else
-                  for (unsigned int b = 0; b < nc; ++b)
-                    row[scattered_places[-1 - place[j] + b]] += from[b];
-              }
-          }
       }
+    };
+  } // namespace
+
+
+
+  void
+  SystemMatrix::add_list(const unsigned int list,
+                         const double      *values,
+                         const unsigned int stride)
+  {
+    const unsigned int  n          = list_begins[list + 1] - list_begins[list];
+    const unsigned int *f          = list_functions.data() + list_begins[list];
+    const unsigned int  block_size = n_components * n_components;
+
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        row_pointers[i] = open_row(f[i]);
+        if (first_lists[f[i]] == list)
+          std::fill_n(row_pointers[i],
+                      block_size * (row_functions_begins[f[i] + 1] -
+                                    row_functions_begins[f[i]]),
+                      0.);
+      }
+    if (values != nullptr)
+      run_best<AddRuns>(n,
+                        block_size,
+                        values,
+                        stride,
+                        runs.data() + run_begins[list],
+                        row_pointers.data());
+    for (unsigned int i = 0; i < n; ++i)
+      if (last_lists[f[i]] == list)
+        close_row(f[i]);
   }
 
 
@@ -396,6 +558,10 @@ namespace EBSMPM
   void
   SystemMatrix::compress()
   {
+    // Lists without a local matrix.
+    if (next_list + 1 < list_begins.size())
+      add(list_begins.size() - 2, nullptr, 0);
+
     const MPI_Comm communicator = sparse_matrix.get_mpi_communicator();
     constexpr int  tag          = 4711;
     std::vector<MPI_Request> requests;
@@ -444,12 +610,21 @@ namespace EBSMPM
   std::size_t
   SystemMatrix::memory_consumption() const
   {
-    return (places.capacity() + scattered_places.capacity()) * sizeof(int) +
-           list_functions.capacity() * sizeof(unsigned int) +
-           (list_begins.capacity() + place_begins.capacity() +
-            ghost_row_begins.capacity() + arrival_places.capacity()) *
+    return list_functions.capacity() * sizeof(unsigned int) +
+           (row_functions.capacity() + global_functions.capacity()) *
+             sizeof(types::global_dof_index) +
+           runs.capacity() * sizeof(Run) +
+           (slots.capacity() + first_lists.capacity() + last_lists.capacity() +
+            shuffled_begins.capacity()) *
+             sizeof(unsigned int) +
+           shuffled_places.capacity() * sizeof(int) +
+           (list_begins.capacity() + run_begins.capacity() +
+            row_functions_begins.capacity() + ghost_row_begins.capacity() +
+            arrival_places.capacity()) *
              sizeof(std::size_t) +
-           (ghost_entries.capacity() + arrivals.capacity()) * sizeof(double) +
-           global_functions.capacity() * sizeof(types::global_dof_index);
+           row_pointers.capacity() * sizeof(double *) +
+           (open_rows.capacity() + ghost_entries.capacity() +
+            arrivals.capacity()) *
+             sizeof(double);
   }
 } // namespace EBSMPM

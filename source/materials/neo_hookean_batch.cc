@@ -141,115 +141,91 @@ namespace EBSMPM
      * Return a determinant that is not positive or not finite, or else
      * one.
      */
-    template <int dim, unsigned int n_bytes>
-    EBSMPM_IN_EACH_TARGET double
-    respond(const Task<dim> &task)
+    struct Respond
     {
-      using L      = Lanes<n_bytes>;
-      using Vector = typename L::type;
+      template <unsigned int n_bytes, int dim>
+      static EBSMPM_IN_EACH_TARGET double
+      run(const Task<dim> *task)
+      {
+        using L      = Lanes<n_bytes>;
+        using Vector = typename L::type;
 
-      MaterialBatch<dim> &batch = task.batch;
-      double              worst = 1.;
-      for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
-        {
-          Matrix<n_bytes, dim> F, F_n;
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = 0; j < dim; ++j)
-              {
-                F[i][j]   = L::load(batch.F(i, j) + p);
-                F_n[i][j] = L::load(batch.F_n(i, j) + p);
-              }
-          const Vector volume = L::load(batch.volume() + p);
-          const Vector g      = L::load(batch.degradation() + p);
-          const Vector branch = L::load(batch.branch() + p);
-
-          Matrix<n_bytes, dim> H     = F.cofactors();
-          Vector               J     = F[0][0] * H[0][0];
-          Vector               trace = F[0][0] * F[0][0] + (3. - dim);
-          for (unsigned int j = 1; j < dim; ++j)
-            J += F[0][j] * H[0][j];
-          for (unsigned int k = 1; k < dim * dim; ++k)
-            trace += F[k / dim][k % dim] * F[k / dim][k % dim];
-          for (unsigned int l = 0; l < L::n; ++l)
-            if (worst > 0. && !(J[l] > 0. && std::isfinite(J[l])))
-              worst = J[l];
-
-          const Vector inverse_J = 1. / J;
-          for (unsigned int k = 0; k < dim * dim; ++k)
-            H[k / dim][k % dim] *= inverse_J;
-
-          // Does the volumetric part degrade?
-          Vector K;
-          for (unsigned int l = 0; l < L::n; ++l)
-            {
-              const bool expanded =
-                branch[l] == 0. ? J[l] >= 1. : branch[l] > 0.;
-              K[l] = task.K * (expanded || !task.split ? g[l] : 1.);
-            }
-
-          const Vector root = inverse_cube_root<n_bytes>(J);
-          const Vector p1   = volume * task.G * g * root * root;
-          K *= volume;
-          const Vector p2 = 0.5 * K * (J * J - 1.) - p1 * trace * (1. / 3.);
-
-          // Pushed forward to the start of the step.
-          const Matrix<n_bytes, dim> FF = F.times_transpose(F_n);
-          const Matrix<n_bytes, dim> HF = H.times_transpose(F_n);
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = 0; j < dim; ++j)
-              L::store(p1 * FF[i][j] + p2 * HF[i][j], batch.stress(i, j) + p);
-          if (!task.with_tangent)
-            continue;
-
-          const Vector               c2 = (-2. / 3.) * p1;
-          const Vector               c3 = K * J * J + (2. / 9.) * p1 * trace;
-          const Matrix<n_bytes, dim> B  = F_n.times_transpose(F_n);
-          for (unsigned int i = 0, pair = 0; i < dim; ++i)
-            for (unsigned int k = i; k < dim; ++k, ++pair)
+        MaterialBatch<dim> &batch = task->batch;
+        double              worst = 1.;
+        for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
+          {
+            Matrix<n_bytes, dim> F, F_n;
+            for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
                 {
-                  const Vector of_F = c2 * HF[i][j];
-                  const Vector of_H = c2 * FF[i][j] + c3 * HF[i][j];
-                  const Vector of_T = p2 * HF[k][j];
-                  for (unsigned int l = 0; l < dim; ++l)
-                    {
-                      Vector c =
-                        of_F * FF[k][l] + of_H * HF[k][l] - of_T * HF[i][l];
-                      if (i == k)
-                        c += p1 * B[j][l];
-                      L::store(c, batch.tangent(pair, j, l) + p);
-                    }
+                  F[i][j]   = L::load(batch.F(i, j) + p);
+                  F_n[i][j] = L::load(batch.F_n(i, j) + p);
                 }
-        }
-      return worst;
-    }
+            const Vector volume = L::load(batch.volume() + p);
+            const Vector g      = L::load(batch.degradation() + p);
+            const Vector branch = L::load(batch.branch() + p);
 
+            Matrix<n_bytes, dim> H     = F.cofactors();
+            Vector               J     = F[0][0] * H[0][0];
+            Vector               trace = F[0][0] * F[0][0] + (3. - dim);
+            for (unsigned int j = 1; j < dim; ++j)
+              J += F[0][j] * H[0][j];
+            for (unsigned int k = 1; k < dim * dim; ++k)
+              trace += F[k / dim][k % dim] * F[k / dim][k % dim];
+            for (unsigned int l = 0; l < L::n; ++l)
+              if (worst > 0. && !(J[l] > 0. && std::isfinite(J[l])))
+                worst = J[l];
 
+            const Vector inverse_J = 1. / J;
+            for (unsigned int k = 0; k < dim * dim; ++k)
+              H[k / dim][k % dim] *= inverse_J;
 
-    template <int dim>
-    EBSMPM_TARGET_AVX512 double
-    respond_avx512(const Task<dim> &task)
-    {
-      return respond<dim, 64>(task);
-    }
+            // Does the volumetric part degrade?
+            Vector K;
+            for (unsigned int l = 0; l < L::n; ++l)
+              {
+                const bool expanded =
+                  branch[l] == 0. ? J[l] >= 1. : branch[l] > 0.;
+                K[l] = task->K * (expanded || !task->split ? g[l] : 1.);
+              }
 
+            const Vector root = inverse_cube_root<n_bytes>(J);
+            const Vector p1   = volume * task->G * g * root * root;
+            K *= volume;
+            const Vector p2 = 0.5 * K * (J * J - 1.) - p1 * trace * (1. / 3.);
 
+            // Pushed forward to the start of the step.
+            const Matrix<n_bytes, dim> FF = F.times_transpose(F_n);
+            const Matrix<n_bytes, dim> HF = H.times_transpose(F_n);
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                L::store(p1 * FF[i][j] + p2 * HF[i][j], batch.stress(i, j) + p);
+            if (!task->with_tangent)
+              continue;
 
-    template <int dim>
-    EBSMPM_TARGET_AVX2 double
-    respond_avx2(const Task<dim> &task)
-    {
-      return respond<dim, 32>(task);
-    }
-
-
-
-    template <int dim>
-    double
-    respond_baseline(const Task<dim> &task)
-    {
-      return respond<dim, 16>(task);
-    }
+            const Vector               c2 = (-2. / 3.) * p1;
+            const Vector               c3 = K * J * J + (2. / 9.) * p1 * trace;
+            const Matrix<n_bytes, dim> B  = F_n.times_transpose(F_n);
+            for (unsigned int i = 0, pair = 0; i < dim; ++i)
+              for (unsigned int k = i; k < dim; ++k, ++pair)
+                for (unsigned int j = 0; j < dim; ++j)
+                  {
+                    const Vector of_F = c2 * HF[i][j];
+                    const Vector of_H = c2 * FF[i][j] + c3 * HF[i][j];
+                    const Vector of_T = p2 * HF[k][j];
+                    for (unsigned int l = 0; l < dim; ++l)
+                      {
+                        Vector c =
+                          of_F * FF[k][l] + of_H * HF[k][l] - of_T * HF[i][l];
+                        if (i == k)
+                          c += p1 * B[j][l];
+                        L::store(c, batch.tangent(pair, j, l) + p);
+                      }
+                  }
+          }
+        return worst;
+      }
+    };
   } // namespace
 
 
@@ -259,14 +235,9 @@ namespace EBSMPM
   NeoHookean<dim>::respond(MaterialBatch<dim> &batch,
                            const bool          with_tangent) const
   {
-    static const auto best = select_kernel(respond_avx512<dim>,
-                                           respond_avx2<dim>,
-                                           respond_baseline<dim>);
-    this->check_determinant(best({batch,
-                                  this->K,
-                                  this->G,
-                                  this->split != EnergySplit::none,
-                                  with_tangent}));
+    const Task<dim> task = {
+      batch, this->K, this->G, this->split != EnergySplit::none, with_tangent};
+    this->check_determinant(run_best<Respond>(&task));
   }
 
 

@@ -7,8 +7,8 @@
 //
 // -----------------------------------------------------------------------------
 
-// Times of what happens in a load step besides linear solves: assembly for
-// displacement and damage, spaces, numbering of the points, and the crack
+// Times of what happens in a load step: assembly for displacement and damage,
+// linear solves, spaces, sorting and numbering of the points, and the crack
 // partition, on a block of quadratic B-splines with a fixed number of points
 // per cell. Sizes double; the last column is the exponent of the growth of the
 // time with the number of points.
@@ -20,11 +20,17 @@
 // Arguments: dimension (2), points per direction (3), the number of cells per
 // direction of the smallest block (16), and the number of sizes (4).
 
-#include <ebsmpm/fracture/crack_partition.h>
 #include <ebsmpm/materials/make_material.h>
-#include <ebsmpm/solvers/newton_solver.h>
+
+#include <ebsmpm/particles/generators.h>
+#include <ebsmpm/particles/material_points.h>
+#include <ebsmpm/particles/shape_parser.h>
+
+#include <ebsmpm/fracture/crack_partition.h>
 
 #include <ebsmpm/assembly/damage_system.h>
+
+#include <ebsmpm/solvers/newton_solver.h>
 
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/timer.h>
@@ -121,12 +127,48 @@ public:
 
 
 
+/**
+ * Time the sorting of points into cells, when all of them have moved by a
+ * twentieth of a cell, to and fro.
+ */
+template <int dim>
+double
+sorting_time(const Triangulation<dim> &triangulation,
+             const double              h,
+             const unsigned int        n_per_direction)
+{
+  const MappingCartesian<dim>   mapping;
+  MaterialPoints<dim>           points(triangulation, mapping);
+  PointGenerator::FillData<dim> data;
+  data.n_points_per_direction = n_per_direction;
+  PointGenerator::fill(*parse_shape<dim>(dim == 2 ? "box(0,0, 1,1)" :
+                                                    "box(0,0,0, 1,1,1)"),
+                       data,
+                       points);
+  double shift = 0.05 * h;
+  return seconds([&]() {
+    for (auto &particle : points.handler())
+      {
+        Point<dim> location = particle.get_location();
+        for (unsigned int d = 0; d < dim; ++d)
+          location[d] += shift;
+        particle.set_location(location);
+      }
+    points.sort();
+    shift = -shift;
+  });
+}
+
+
+
 template <int dim>
 void
-run(const unsigned int n_cells, const unsigned int n_per_direction, Report &table)
+run(const unsigned int n_cells,
+    const unsigned int n_per_direction,
+    Report            &table)
 {
   // A frame of two empty cells around the block.
-  const double h = 1. / n_cells;
+  const double                              h = 1. / n_cells;
   parallel::distributed::Triangulation<dim> triangulation(MPI_COMM_WORLD);
   GridGenerator::subdivided_hyper_cube(triangulation,
                                        n_cells + 4,
@@ -140,7 +182,7 @@ run(const unsigned int n_cells, const unsigned int n_per_direction, Report &tabl
                        2,
                        n_per_direction);
 
-  const auto   material = make_material<dim>("neo-Hookean",
+  const auto              material = make_material<dim>("neo-Hookean",
                                            EnergySplit::volumetric_deviatoric,
                                            175.,
                                            80.77);
@@ -154,15 +196,18 @@ run(const unsigned int n_cells, const unsigned int n_per_direction, Report &tabl
             << " points, " << Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)
             << " processes" << std::endl;
 
+  table.print("sorting of points",
+              n_points,
+              sorting_time(triangulation, h, n_per_direction));
   table.print("numbering of points", n_points, seconds([&]() {
                 body.points.reinit(body.material_handler, body.space.lattice());
               }));
   table.print("space and constraints", n_points, seconds([&]() {
                 body.make_space(0.1);
               }));
-  table.print("groups, new matrix", n_points, seconds([&]() {
-                body.reinit(u_system);
-              }, 1));
+  table.print("groups, new matrix",
+              n_points,
+              seconds([&]() { body.reinit(u_system); }, 1));
   table.print("groups, same matrix", n_points, seconds([&]() {
                 body.reinit(u_system);
               }));
@@ -173,31 +218,37 @@ run(const unsigned int n_cells, const unsigned int n_per_direction, Report &tabl
     {
       const Point<dim> &x = body.points.location(q);
       const double      y = x[dim - 1] - 0.5 - 0.01 * h;
-      const double      r =
-        x[0] < 0.5 ? std::abs(y) : std::hypot(x[0] - 0.5, y);
+      const double r = x[0] < 0.5 ? std::abs(y) : std::hypot(x[0] - 0.5, y);
       body.state.damage[q]  = std::exp(-r / (2.5 * h));
       body.state.history[q] = 0.;
     }
 
-  // Of the pairs of components, only those on and above the diagonal.
+  // Of the symmetric matrix of a cell, the diagonal and what is above it.
   const double n_functions = std::pow(3., dim);
-  const double flops =
-    n_points * dim * n_functions * 0.5 * dim * (dim + 1) * n_functions * 2.;
+  const auto   flops       = [&](const unsigned int n_rows,
+                         const unsigned int n_components) {
+    const double size = n_components * n_functions;
+    return n_points * n_rows * size * (size + 1.);
+  };
 
   LA::FieldVector x = u_system.make_vector(), residual = x, update = x;
   body.scatter_coefficients(x, dim);
   x *= 1e-3 * h;
   table.print("residual", n_points, seconds([&]() {
-                u_system.assemble_residual(
-                  body.state, body.boundary, x, residual);
+                u_system.assemble_residual(body.state,
+                                           body.boundary,
+                                           x,
+                                           residual);
               }));
   table.print("tangent and residual",
               n_points,
               seconds([&]() {
-                u_system.assemble_tangent(
-                  body.state, body.boundary, x, residual);
+                u_system.assemble_tangent(body.state,
+                                          body.boundary,
+                                          x,
+                                          residual);
               }),
-              flops);
+              flops(dim, dim));
 
   LinearSolver solver;
   solver.set_block_size(dim);
@@ -207,24 +258,16 @@ run(const unsigned int n_cells, const unsigned int n_per_direction, Report &tabl
       solve_linear_system(solver, u_system.matrix(), residual, 1e-4, update);
     },
     1);
-  table.print("Newton iteration", n_points, seconds([&]() {
-                                              u_system.assemble_tangent(
-                                                body.state,
-                                                body.boundary,
-                                                x,
-                                                residual);
-                                              solve_linear_system(
-                                                solver,
-                                                u_system.matrix(),
-                                                residual,
-                                                1e-4,
-                                                update);
-                                              u_system.assemble_residual(
-                                                body.state,
-                                                body.boundary,
-                                                x,
-                                                residual);
-                                            }, 1));
+  table.print(
+    "Newton iteration",
+    n_points,
+    seconds(
+      [&]() {
+        u_system.assemble_tangent(body.state, body.boundary, x, residual);
+        solve_linear_system(solver, u_system.matrix(), residual, 1e-4, update);
+        u_system.assemble_residual(body.state, body.boundary, x, residual);
+      },
+      1));
   table.print("factorisation and solve", n_points, linear);
   std::vector<double> psi;
   table.print("driving energy", n_points, seconds([&]() {
@@ -236,31 +279,43 @@ run(const unsigned int n_cells, const unsigned int n_per_direction, Report &tabl
   table.print("damage matrix",
               n_points,
               seconds([&]() {
-                d_system.assemble(
-                  body.state, body.boundary, {}, right_hand_side);
+                d_system.assemble(body.state,
+                                  body.boundary,
+                                  {},
+                                  right_hand_side);
               }),
-              n_points * (dim + 1) * n_functions * n_functions * 2.);
+              flops(dim + 1, 1));
 
   // The crack partition. A second update finds frozen labels.
   CrackPartition<dim> partition(body.space);
   CrackLabels<dim>    labels, boundary_labels;
   labels.resize(body.points.n_points());
   boundary_labels.resize(body.boundary_points.n_points());
-  table.print("crack partition", n_points, seconds([&]() {
-                partition.update(body.points,
-                                 body.boundary_points,
-                                 body.state.volume,
-                                 body.state.damage,
-                                 labels,
-                                 boundary_labels);
-              }, 2));
+  table.print("crack partition",
+              n_points,
+              seconds(
+                [&]() {
+                  partition.update(body.points,
+                                   body.boundary_points,
+                                   body.state.volume,
+                                   body.state.damage,
+                                   labels,
+                                   boundary_labels);
+                },
+                2));
 
   Utilities::System::MemoryStats memory;
   Utilities::System::get_memory_stats(memory);
-  table.out << "  " << 1024. * Utilities::MPI::sum(double(memory.VmHWM),
-                                                   MPI_COMM_WORLD) /
-                         n_points
-            << " bytes per point at most, program included" << std::endl;
+  const double bytes =
+    1024. * Utilities::MPI::sum(double(memory.VmHWM), MPI_COMM_WORLD);
+  const double matrix_bytes =
+    Utilities::MPI::sum(double(u_system.matrix().memory_consumption()),
+                        MPI_COMM_WORLD);
+  table.out << "  at most " << bytes / n_points << " bytes per point, "
+            << bytes / x.size()
+            << " per unknown, program and factorisation included; "
+            << matrix_bytes / x.size() << " per unknown for the matrix"
+            << std::endl;
 }
 
 

@@ -24,7 +24,7 @@ namespace EBSMPM
      * Row lengths of the arrays below must be multiples of this number of
      * doubles; the padding must be zero.
      */
-    constexpr unsigned int padding = 16;
+    constexpr unsigned int padding = 8;
 
     /** Return @p n rounded up to a multiple of #padding. */
     inline constexpr unsigned int
@@ -34,8 +34,9 @@ namespace EBSMPM
     }
 
     /**
-     * Compute $C = A^T B$, the product that every stiffness matrix is made of:
-     * the sum over all points of a cell, $k$, is the inner dimension.
+     * Compute $C = A^T B$, or add it to $C$: the product that every stiffness
+     * matrix is made of. The sum over all points of a cell is the inner
+     * dimension.
      *
      * @param n_inner number of rows of @p A and @p B
      * @param n_rows number of columns of @p A, rows of @p C
@@ -44,6 +45,11 @@ namespace EBSMPM
      * @param A row by row, rows being @p lda apart
      * @param B row by row, rows being @p n_columns apart
      * @param C row by row, rows being @p n_columns apart
+     * @param add whether to add to @p C instead of overwriting it
+     * @param block_size If not zero, columns of @p C are blocks of this size,
+     *   one per row, and those before the block of the row itself are not
+     *   wanted (but some of them computed): enough for a symmetric matrix, see
+     *   complete_symmetric().
      */
     void
     transposed_product(const unsigned int n_inner,
@@ -52,7 +58,18 @@ namespace EBSMPM
                        const double      *A,
                        const unsigned int lda,
                        const double      *B,
-                       double            *C);
+                       double            *C,
+                       const bool         add        = false,
+                       const unsigned int block_size = 0);
+
+    /**
+     * Complete a symmetric matrix of <tt>dim x dim</tt> blocks, of which those
+     * on and above the diagonal are there: <tt>C[I*ld + (J*dim+i)*dim+k]</tt>
+     * couples component $i$ of function $I$ with component $k$ of function $J$.
+     */
+    template <int dim>
+    void
+    complete_symmetric(const unsigned int n, const unsigned int ld, double *C);
 
     /**
      * Compute $C^T = A B^T$, the products of few rows with many: the gradients
@@ -75,22 +92,22 @@ namespace EBSMPM
                  double            *C);
 
     /**
-     * Combine rows that belong to the same point: block $b$ of row $(p,j)$ of
-     * @p B becomes $\sum_l c^b_{jl}(p)\,G_{(p,l)}$.
+     * Combine rows that belong to the same point, for all pairs of components
+     * at once: $B_{(p,j),(Jik)} = \sum_l c_{ijkl}(p)\,G_{(p,l),J}$, with a
+     * symmetric $c_{ijkl}=c_{klij}$.
      *
      * @param n_points number of points $p$; there are n_rows rows for each
-     * @param n_blocks number of blocks; block $b$ begins at column $bn$
      * @param n length of a row of @p G
-     * @param c <tt>c[((b*n_rows+j)*n_rows+l)*ldc+p]</tt> is $c^b_{jl}(p)$
-     * @param G, @p B row by row, rows being @p ldg and @p ldb apart; rows of
-     *   @p G are zero up to the next multiple of #padding, and those of @p B
-     *   will be; behind the last row of @p B, there must be room for #padding
-     *   numbers
+     * @param c <tt>c[((b*n_rows+j)*n_rows+l)*ldc+p]</tt> is $c_{ijkl}(p)$ for the
+     *   pair $i\le k$ with number $b$ in lexicographic order
+     * @param G, @p B row by row, rows being @p ldg and @p ldb apart; columns
+     *   $(Jik)$ of @p B are in lexicographic order, and up to #padding numbers
+     *   after them become zero, for which there must be room behind the last
+     *   row, too
      */
-    template <int n_rows>
+    template <int dim, int n_rows>
     void
     combine_rows(const unsigned int n_points,
-                 const unsigned int n_blocks,
                  const unsigned int n,
                  const double      *c,
                  const unsigned int ldc,

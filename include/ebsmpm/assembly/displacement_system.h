@@ -339,6 +339,13 @@ namespace EBSMPM
     PointGroups<dim> material_groups;
     PointGroups<dim> boundary_groups;
 
+    /**
+     * For each group of material points, the group of boundary points that
+     * reads the same functions, and the groups of boundary points without one.
+     */
+    std::vector<unsigned int> partners;
+    std::vector<unsigned int> lone_boundary_groups;
+
     ConnectedPieces<dim> connected_pieces;
 
     std::shared_ptr<const Utilities::MPI::Partitioner> functions;

@@ -17,16 +17,16 @@
 namespace EBSMPM
 {
   /**
-   * Resolves the constraints of a group of points in its matrix: $E^T K E$ for
-   * each block $K$ of a matrix (a pair of components), where $E$ is that of
-   * PointGroups.
+   * Resolves the constraints of a group of points in its matrix: $E^T K E$,
+   * where $E$ is that of PointGroups, and the entries of $K$ are small blocks
+   * (a number per pair of components).
    *
    * Most rows of $E$ are those of the identity, and the others have few
    * entries; so the product is a sum over these.
    *
    * @code
    * ExtensionProduct product;
-   * product.initialize(n_functions, max_n_unknown_functions, n_blocks);
+   * product.initialize(n_functions, max_n_unknown_functions, block_size);
    * const double *R = product.compute(E, m, K, ldk);
    * @endcode
    *
@@ -40,23 +40,23 @@ namespace EBSMPM
      *
      * @param n_functions number of functions of a cell, rows of $E$
      * @param max_n_columns the largest number of columns of $E$
-     * @param n_blocks number of blocks
+     * @param block_size number of entries of a block
      */
     void
     initialize(const unsigned int n_functions,
                const unsigned int max_n_columns,
-               const unsigned int n_blocks);
+               const unsigned int block_size);
 
     /**
-     * Compute the product of all blocks.
+     * Compute the product.
      *
      * @param E the matrix, row by row
      * @param m its number of columns
-     * @param K row $I$ of block $b$ begins at <tt>K[I*ldk+b*n_functions]</tt>
+     * @param K block $(I,J)$ begins at <tt>K[I*ldk+J*block_size]</tt>
      * @param ldk distance between two rows
      *
-     * Return an array in which row $i$ of block $b$ begins at
-     * <tt>(i*n_blocks+b)*m</tt>. It is valid until the next call.
+     * Return an array in which block $(i,j)$ begins at
+     * <tt>(i*m+j)*block_size</tt>. It is valid until the next call.
      */
     const double *
     compute(const double      *E,
@@ -73,8 +73,8 @@ namespace EBSMPM
       double       value;
     };
 
-    unsigned int n        = 0;
-    unsigned int n_blocks = 0;
+    unsigned int n    = 0;
+    unsigned int size = 0;
 
     std::vector<Entry>  entries;
     std::vector<double> half;

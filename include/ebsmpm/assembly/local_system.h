@@ -84,11 +84,20 @@ namespace EBSMPM
     initialize(const SplineSpace<dim> &space,
                const unsigned int      max_n_functions);
 
-    /** Go to @p group, and set the residual to zero. */
+    /** Go to @p group; residual and tangent begin with zero. */
     void
     reinit(const CellPoints<dim>                  &points,
            const PointGroups<dim>                 &groups,
            const typename PointGroups<dim>::Group &group);
+
+    /**
+     * Go on to another group, which reads the same functions, and keep what
+     * there is of them: the coefficients, the residual and the tangent.
+     */
+    void
+    go_on(const CellPoints<dim>                  &points,
+          const PointGroups<dim>                 &groups,
+          const typename PointGroups<dim>::Group &group);
 
     /**
      * Get the coefficients of @p increment, a vector with up-to-date ghost
@@ -150,23 +159,31 @@ namespace EBSMPM
     }
 
     /**
-     * The tangent, row by row: <tt>tangent()[I*tangent_stride() + pair(a,b)*
-     * n_functions() + J]</tt> couples component $a$ of function $I$ with
-     * component $b$ of function $J$, $a\le b$. The rest follows by symmetry.
+     * The tangent, row by row: <tt>tangent()[I*tangent_stride() + (J*dim+a)*dim
+     * + b]</tt> couples component $a$ of function $I$ with component $b$ of
+     * function $J$, for $I\le J$. The rest follows by symmetry, and what is
+     * written there does not matter.
      */
     double *
     tangent();
+
+    /**
+     * Whether the tangent has to be added to. Otherwise, it is zero, but it
+     * does not say so: it is to be overwritten. The next answer is yes.
+     */
+    bool
+    has_tangent();
 
     /** Distance between two rows of the tangent. */
     unsigned int
     tangent_stride() const;
 
-    /** Resolve the constraints and add the residual to a vector. */
+    /** Resolve the constraints, and add the residual to a vector. */
     void
     distribute_residual(LA::FieldVector &vector) const;
 
     /**
-     * Resolve the constraints and add the tangent to a matrix.
+     * Complete the tangent, resolve the constraints, and add it to a matrix.
      *
      * @param list number of the group's functions in the matrix
      */
@@ -192,6 +209,7 @@ namespace EBSMPM
 
     unsigned int        stride = 0;
     std::vector<double> tangent_rows;
+    bool                tangent_begun = false;
     ExtensionProduct    extension_product;
   };
 
@@ -298,6 +316,17 @@ namespace EBSMPM
   LocalSystem<dim>::tangent()
   {
     return tangent_rows.data();
+  }
+
+
+
+  template <int dim>
+  inline bool
+  LocalSystem<dim>::has_tangent()
+  {
+    const bool answer = tangent_begun;
+    tangent_begun     = true;
+    return answer;
   }
 
 

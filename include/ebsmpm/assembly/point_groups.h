@@ -10,8 +10,9 @@
 #ifndef ebsmpm_assembly_point_groups_h
 #define ebsmpm_assembly_point_groups_h
 
-#include <ebsmpm/particles/cell_points.h>
 #include <ebsmpm/splines/spline_space.h>
+
+#include <ebsmpm/particles/cell_points.h>
 
 #include <deal.II/base/partitioner.h>
 
@@ -31,7 +32,7 @@ namespace EBSMPM
    */
   template <int dim>
   std::shared_ptr<const Utilities::MPI::Partitioner>
-  make_partitioner(const SplineSpace<dim> &         space,
+  make_partitioner(const SplineSpace<dim>          &space,
                    const AffineConstraints<double> &constraints,
                    const unsigned int               n_components);
 
@@ -97,10 +98,10 @@ namespace EBSMPM
      * @param partitioner of a scalar problem on the space
      */
     bool
-    reinit(const CellPoints<dim> &           points,
-           const std::vector<Pattern> &      patterns,
-           const SplineSpace<dim> &          space,
-           const AffineConstraints<double> & constraints,
+    reinit(const CellPoints<dim>             &points,
+           const std::vector<Pattern>        &patterns,
+           const SplineSpace<dim>            &space,
+           const AffineConstraints<double>   &constraints,
            const Utilities::MPI::Partitioner &partitioner);
 
     /** The groups, cell by cell. */
@@ -170,8 +171,8 @@ namespace EBSMPM
     /** What the groups were made from. */
     struct Origin
     {
-      const SplineSpace<dim> *space     = nullptr;
-      unsigned int            n_changes = 0;
+      const SplineSpace<dim>                            *space     = nullptr;
+      unsigned int                                       n_changes = 0;
       std::vector<typename CartesianLattice<dim>::Index> cells;
       std::vector<unsigned int>                          levels;
       std::vector<unsigned int>                          ends;
@@ -187,10 +188,25 @@ namespace EBSMPM
     };
     Origin origin;
 
-    unsigned int              n_per_cell = 0;
-    unsigned int              max_n      = 0;
-    unsigned int              max_points = 0;
+    unsigned int n_per_cell = 0;
+    unsigned int max_n      = 0;
+    unsigned int max_points = 0;
   };
+
+
+
+  /**
+   * Find, for each of the @p groups, the group among @p others that reads the
+   * same functions, in the same cell and with the same pattern, for other
+   * points; where there is none, the result is numbers::invalid_unsigned_int.
+   * Both have to be up to date, for the same space.
+   */
+  template <int dim>
+  std::vector<unsigned int>
+  find_partners(const CellPoints<dim>  &points,
+                const PointGroups<dim> &groups,
+                const CellPoints<dim>  &other_points,
+                const PointGroups<dim> &others);
 } // namespace EBSMPM
 
 #endif

@@ -29,7 +29,7 @@ namespace EBSMPM
    *            = \bigl[\mathbf X^T (\mathbf c\,\mathbf X)\bigr]_{Ii,Jk},
    * @f]
    * where $\mathbf X$ has a row per point and functional and a column per
-   * function. As $\mathbf K$ is symmetric, only pairs $i\le k$ are computed.
+   * function. As $\mathbf K$ is symmetric, only blocks $I\le J$ are computed.
    *
    * @code
    * TangentProduct<dim, dim> product;        // gradients only
@@ -69,7 +69,7 @@ namespace EBSMPM
     }
 
     /**
-     * Overwrite the tangent of @p local.
+     * Add to the tangent of @p local.
      *
      * @param n_points number of points
      * @param c <tt>c[((b*n_rows+j)*n_rows+l)*ldc+p]</tt> is $c_{ijkl}(p)$ for

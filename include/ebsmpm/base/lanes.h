@@ -22,6 +22,9 @@
 #  define EBSMPM_TARGET_AVX2 __attribute__((target("avx2,fma")))
 #  define EBSMPM_TARGET_AVX512 \
     __attribute__((target("avx512f,avx512vl,avx2,fma")))
+#else
+#  define EBSMPM_TARGET_AVX2
+#  define EBSMPM_TARGET_AVX512
 #endif
 
 // What is called by the variants of a kernel must become part of each.
@@ -37,20 +40,18 @@ namespace EBSMPM
    * pairs; with vectors that are longer than a register, it keeps them in
    * memory. Both is several times slower.
    *
-   * A kernel is a function template with the attribute EBSMPM_IN_EACH_TARGET
-   * and the parameter @p n_bytes. It is called from one function for each
-   * instruction set, which select_kernel() chooses from:
+   * A kernel is a class with a static function run() that is a template in
+   * @p n_bytes and has the attribute EBSMPM_IN_EACH_TARGET. run_best() calls
+   * the variant for the machine:
    *
    * @code
-   * template <unsigned int n_bytes>
-   * EBSMPM_IN_EACH_TARGET void add(const unsigned int n, double *x);
+   * struct Add
+   * {
+   *   template <unsigned int n_bytes>
+   *   static EBSMPM_IN_EACH_TARGET void run(const unsigned int n, double *x);
+   * };
    *
-   * EBSMPM_TARGET_AVX512 void add_avx512(const unsigned int n, double *x)
-   * { add<64>(n, x); }
-   * EBSMPM_TARGET_AVX2 void add_avx2(const unsigned int n, double *x)
-   * { add<32>(n, x); }
-   *
-   * static const auto best = select_kernel(add_avx512, add_avx2, add<16>);
+   * run_best<Add>(n, x);
    * @endcode
    */
   template <unsigned int n_bytes>
@@ -88,28 +89,56 @@ namespace EBSMPM
 
 
 
+  /** A kernel for machines with AVX-512. */
+  template <typename Kernel, typename... Arguments>
+  EBSMPM_TARGET_AVX512 auto
+  run_avx512(Arguments... arguments)
+  {
+    return Kernel::template run<64>(arguments...);
+  }
+
+
+
+  /** A kernel for machines with AVX2. */
+  template <typename Kernel, typename... Arguments>
+  EBSMPM_TARGET_AVX2 auto
+  run_avx2(Arguments... arguments)
+  {
+    return Kernel::template run<32>(arguments...);
+  }
+
+
+
+  /** A kernel for all machines. */
+  template <typename Kernel, typename... Arguments>
+  auto
+  run_baseline(Arguments... arguments)
+  {
+    return Kernel::template run<16>(arguments...);
+  }
+
+
+
   /**
-   * Return the best variant of a kernel for the machine the program runs on.
+   * Run the variant of a kernel that is the best one for the machine the
+   * program runs on, and return what it returns. Arguments are passed by value.
    */
-  template <typename Kernel>
-  inline Kernel
-  select_kernel(Kernel avx512, Kernel avx2, Kernel baseline)
+  template <typename Kernel, typename... Arguments>
+  inline auto
+  run_best(Arguments... arguments)
   {
 #ifdef EBSMPM_HAVE_X86_TARGETS
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
-      return avx512;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-      return avx2;
+    static const bool has_avx512 =
+      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
+    static const bool has_avx2 =
+      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (has_avx512)
+      return run_avx512<Kernel>(arguments...);
+    if (has_avx2)
+      return run_avx2<Kernel>(arguments...);
 #endif
-    (void)avx512;
-    (void)avx2;
-    return baseline;
+    return run_baseline<Kernel>(arguments...);
   }
 } // namespace EBSMPM
-
-#ifndef EBSMPM_HAVE_X86_TARGETS
-#  define EBSMPM_TARGET_AVX2
-#  define EBSMPM_TARGET_AVX512
-#endif
 
 #endif

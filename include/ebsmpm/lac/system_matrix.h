@@ -15,6 +15,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace EBSMPM
@@ -24,10 +25,16 @@ namespace EBSMPM
    *
    * The same local matrices, coupling the same unknowns, are added in every
    * Newton step. A general sparse matrix searches for each entry of theirs
-   * again and again; here, the places are looked up once, in reinit(), so that
-   * adding costs little more than reading and writing. Unknowns come in blocks,
-   * <tt>n_components*function+component</tt>, and one place is stored per pair
-   * of functions.
+   * again and again; here, the places are looked up once, in reinit(). Unknowns
+   * come in blocks, <tt>n_components*function+component</tt>, and places are
+   * those of functions.
+   *
+   * Rows that local matrices are being added to are kept aside, as open rows,
+   * with all components of a function next to each other, so that a local
+   * matrix is added along lines of functions. A row is written to the sparse
+   * matrix once, after the last local matrix that has a share in it. As
+   * neighbouring cells follow each other, few rows are open at a time, and they
+   * stay in the caches.
    *
    * Rows of other processes are kept here, in the same way, until compress()
    * sends them, in messages whose contents have been agreed on by reinit().
@@ -35,7 +42,7 @@ namespace EBSMPM
    * @code
    * SystemMatrix matrix;
    * matrix.reinit(functions, unknowns, n_components, lists);
-   * matrix = 0;
+   * matrix.begin();
    * for (l = 0; l < n_lists; ++l)
    *   matrix.add(l, local_matrix, stride);
    * matrix.compress();
@@ -65,19 +72,18 @@ namespace EBSMPM
            const unsigned int                 n_components,
            const std::vector<List>           &lists);
 
-    /** Set all entries to zero. */
+    /** Begin anew, with a matrix of zeros. */
     void
-    set_zero();
+    begin();
 
     /**
-     * Add a symmetric local matrix. Nothing is allocated if all rows are own
-     * ones.
+     * Add a local matrix. Lists have to be added in their order, each at most
+     * once; those that are left out add nothing. Nothing is allocated.
      *
      * @param list number of the list of functions that it couples
-     * @param values <tt>values[i*stride + pair*n + j]</tt>, where <tt>n</tt> is
-     *   the size of the list, couples component $a$ of its function $i$ with
-     *   component $b$ of function $j$, and pairs $a\le b$ are in lexicographic
-     *   order
+     * @param values <tt>values[i*stride + (j*n_components+a)*n_components +
+     *   b]</tt> couples component $a$ of function $i$ of the list with
+     * component $b$ of its function $j$
      * @param stride distance between two rows
      */
     void
@@ -85,7 +91,10 @@ namespace EBSMPM
         const double      *values,
         const unsigned int stride);
 
-    /** Send contributions to rows of other processes. Collective. */
+    /**
+     * Write the rows that are still open, and send contributions to rows of
+     * other processes. Only now, matrix() is complete. Collective.
+     */
     void
     compress();
 
@@ -93,29 +102,80 @@ namespace EBSMPM
     const LA::SparseMatrix &
     matrix() const;
 
-    /** Memory in bytes used for the places of entries and for rows of others. */
+    /** Memory in bytes used for the places of entries and for rows of others.
+     */
     std::size_t
     memory_consumption() const;
 
   private:
+    /** The lists that each function occurs in. */
+    class Occurrences;
+
+    /** Functions one after the other that are neighbours in a row. */
+    struct Run
+    {
+      std::uint16_t column;
+      std::uint16_t size;
+    };
+
+    /** A part of an array that goes to another process, or comes from it. */
+    struct Message
+    {
+      unsigned int rank;
+      std::size_t  begin;
+      std::size_t  size;
+    };
+
+    /** Whether anything is different from what reinit() has seen before. */
+    bool
+    remember(const Utilities::MPI::Partitioner &functions,
+             const unsigned int                 n_components,
+             const std::vector<List>           &lists);
+
     /**
-     * Agree with the other processes on what is sent.
-     *
-     * @param functions the partitioner
-     * @param ghost_rows for each function of another process, the global
-     *   numbers of those it couples with
+     * Find the functions that each function couples with, @p row_functions, and
+     * build the sparse matrix.
      */
     void
-    set_up_messages(
-      const Utilities::MPI::Partitioner                       &functions,
-      const std::vector<std::vector<types::global_dof_index>> &ghost_rows);
+    build_matrix(const Utilities::MPI::Partitioner &functions,
+                 const Occurrences                 &occurrences);
 
-    /** Implementation of add(). */
-    template <unsigned int n_components>
+    /** Find the runs of all lists. */
     void
-    add_components(const unsigned int list,
-                   const double      *values,
-                   const unsigned int stride);
+    find_runs(const Utilities::MPI::Partitioner &functions,
+              const Occurrences                 &occurrences);
+
+    /**
+     * Find the rows of the sparse matrix whose columns are in another order
+     * than those of open rows.
+     */
+    void
+    find_shuffled_rows();
+
+    /** Give each row a place among the open rows for the time it needs one. */
+    void
+    assign_slots(const Occurrences &occurrences);
+
+    /** Agree with the other processes on what is sent. */
+    void
+    set_up_messages(const Utilities::MPI::Partitioner &functions);
+
+    /** The open row of a function. */
+    double *
+    open_row(const unsigned int function);
+
+    /** Write the row of a function to where it belongs. */
+    void
+    close_row(const unsigned int function);
+
+    /**
+     * Add a local matrix, or nothing if there is none, and open and close the
+     * rows that begin and end with this list.
+     */
+    void
+    add_list(const unsigned int list,
+             const double      *values,
+             const unsigned int stride);
 
     unsigned int n_components = 0;
     unsigned int n_owned      = 0;
@@ -126,39 +186,48 @@ namespace EBSMPM
     double    *entries    = nullptr;
     const int *row_begins = nullptr;
 
-    /** The functions of all lists, where lists begin, and their places. */
+    /** The functions of all lists, and where lists begin. */
     std::vector<unsigned int> list_functions;
     std::vector<std::size_t>  list_begins;
-    std::vector<std::size_t>  place_begins;
-    std::vector<int>          places;
-
-    /**
-     * Where the columns of the components of a function are not consecutive in
-     * a row, @p places has minus one minus the position here of their places.
-     */
-    std::vector<int> scattered_places;
 
     /** Global numbers of the functions that this process knows. */
     std::vector<types::global_dof_index> global_functions;
 
-    /** Functions one after the other whose entries are neighbours in a row. */
-    struct Run
-    {
-      unsigned int begin;
-      unsigned int size;
-    };
+    /**
+     * For each of these, the global numbers of the functions that it couples
+     * with, in ascending order: the columns of its open row.
+     */
+    std::vector<types::global_dof_index> row_functions;
+    std::vector<std::size_t>             row_functions_begins;
 
-    /** Scratch for one row. */
-    std::vector<double> row_values;
-    std::vector<Run>    runs;
+    /** The runs of each function of each list. */
+    std::vector<Run>         runs;
+    std::vector<std::size_t> run_begins;
 
-    /** A part of an array that goes to another process, or comes from it. */
-    struct Message
-    {
-      unsigned int rank;
-      std::size_t  begin;
-      std::size_t  size;
-    };
+    /**
+     * For each function, its place among the open rows, and the first and the
+     * last list that needs it. Own functions that no list needs have a last
+     * list before the first one.
+     */
+    std::vector<unsigned int> slots;
+    std::vector<unsigned int> first_lists;
+    std::vector<unsigned int> last_lists;
+
+    /** The open rows, how long one is at most, and the list that is next. */
+    std::vector<double> open_rows;
+    std::size_t         slot_size = 0;
+    unsigned int        next_list = 0;
+
+    /** Scratch for add(): the open rows of a list. */
+    std::vector<double *> row_pointers;
+
+    /**
+     * For functions whose entries are in another order in the sparse matrix,
+     * the place of each of their columns, counted from the begin of the row;
+     * the others have numbers::invalid_unsigned_int as begin.
+     */
+    std::vector<unsigned int> shuffled_begins;
+    std::vector<int>          shuffled_places;
 
     /**
      * The rows of functions of other processes, one after the other, where they
