@@ -50,9 +50,6 @@ namespace EBSMPM
        */
       constexpr double most_settled = 0.1;
       constexpr double least_filled = 0.8;
-
-      /** Reach of the closure, in cells. */
-      constexpr int closure_reach = 3;
     } // namespace CrackPartitionImplementation
   }   // namespace internal
 
@@ -101,6 +98,7 @@ namespace EBSMPM
         find_separable(points, labels);
         if (data.grow)
           close_gaps();
+        add_bare_functions(boundary_points);
         add_shared_functions(*spline_space, table);
       }
     const bool changed = make_patterns(points, labels, point_patterns);
@@ -347,108 +345,6 @@ namespace EBSMPM
           ++n_refused;
       }
     n_refused = Utilities::MPI::sum(n_refused, spline_space->communicator());
-  }
-
-
-
-  template <int dim>
-  void
-  CrackPartition<dim>::close_gaps()
-  {
-    std::vector<Key> candidates;
-    for (const auto &entry : table)
-      if (!entry.second.separable && !entry.second.at_junction &&
-          entry.second.damage_ahead > data.closure_damage)
-        candidates.push_back(entry.first);
-    const DataTable around = surroundings(table,
-                                          candidates,
-                                          closure_reach,
-                                          spline_space->communicator());
-
-    // Which of the others have material at all. (Boundary points may see
-    // functions that do not.)
-    std::vector<Key> unknown;
-    for (const auto &key : candidates)
-      for_each_neighbour(key, closure_reach, [&](const Key &other) {
-        if (around.find(other) == around.end())
-          unknown.push_back(other);
-      });
-    std::sort(unknown.begin(), unknown.end());
-    unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
-    const auto sound    = spline_space->query(unknown);
-    const auto is_sound = [&sound](const Key &key) {
-      const auto found = sound.find(key);
-      return found != sound.end() && found->second.fraction > 0.;
-    };
-
-    std::vector<Key> closed;
-    for (const auto &key : candidates)
-      {
-        const Tensor<1, dim> m = to_tensor(table.at(key).side);
-        if (m.norm_square() == 0.)
-          continue;
-        const double     h = spline_space->lattice().cell_extents(key.level)[0];
-        const Point<dim> x =
-          spline_space->lattice().greville_point(key, spline_space->degree());
-
-        // What lies along the ridge: separable functions, the outside, and
-        // functions that are intact, or else so far away that nobody knows what
-        // comes after them.
-        std::vector<Tensor<1, dim>> separable, outside, intact;
-        const auto                  is_at_reach = [&key](const Key &other) {
-          int steps = 0;
-          for (unsigned int d = 0; d < dim; ++d)
-            steps = std::max(steps, std::abs(other.index[d] - key.index[d]));
-          return steps == closure_reach;
-        };
-        for_each_neighbour(key, closure_reach, [&](const Key &other) {
-          const Tensor<1, dim> offset =
-            spline_space->lattice().greville_point(other,
-                                                   spline_space->degree()) -
-            x;
-          const double         along  = offset * m;
-          const Tensor<1, dim> across = offset - along * m;
-          if (across.norm() < 0.5 * h ||
-              across.norm() > (closure_reach + tie) * h)
-            return;
-          const auto found = around.find(other);
-          if (found != around.end())
-            {
-              if (found->second.separable && std::abs(along) < (2. + tie) * h)
-                separable.push_back(across / across.norm());
-              else if (!found->second.separable &&
-                       std::abs(along) < (0.5 + tie) * h &&
-                       (found->second.damage_ahead <= data.closure_damage ||
-                        is_at_reach(other)))
-                intact.push_back(across / across.norm());
-            }
-          else if (std::abs(along) < (0.5 + tie) * h)
-            (is_sound(other) ? intact : outside)
-              .push_back(across / across.norm());
-        });
-
-        // In 3-D, the outside counts only where nothing is intact ahead: else,
-        // a crack that runs along a free surface would find it diagonally ahead
-        // of its tip.
-        const auto any_opposite = [](const Tensor<1, dim>              &a,
-                                     const std::vector<Tensor<1, dim>> &list,
-                                     const double cosine) {
-          return std::any_of(list.begin(),
-                             list.end(),
-                             [&](const Tensor<1, dim> &b) {
-                               return a * b < -cosine;
-                             });
-        };
-        bool between = false;
-        for (const auto &a : separable)
-          between = between || any_opposite(a, separable, 0.7) ||
-                    (any_opposite(a, outside, 0.7) &&
-                     (dim < 3 || !any_opposite(a, intact, 0.3)));
-        if (between)
-          closed.push_back(key);
-      }
-    for (const auto &key : closed)
-      table[key].separable = true;
   }
 
 

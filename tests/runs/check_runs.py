@@ -88,11 +88,13 @@ def compare(a, b, what, tolerance=1e-8):
 
 
 def check_separation(table, what):
-    """The load rises, falls to zero, and no unknowns were added for it."""
+    """The load rises, falls to zero, one body becomes two, and no unknowns were
+    added for it."""
     assert abs(table[-1]["force"]) < 1e-10 * peak(table), (
         f"{what}: the force is still {table[-1]['force']}"
     )
     assert table[-1]["twin_functions"] > table[0]["twin_functions"], what
+    assert (table[0]["pieces"], table[-1]["pieces"]) == (1, 2), what
     # Unknowns may come and go where the boundary crosses grid lines.
     before = max(
         row["independent_functions"]

@@ -102,7 +102,10 @@ namespace EBSMPM
    *    or between one and a free boundary (in 3-D, with nothing intact ahead),
    *    within three cells, is separable as well. Single functions left over
    *    would carry load for ever.
-   * 7. A point with $\mathbf m_p\cdot\mathbf m_I<0$ reads the twin of the
+   * 7. A function without material, which is read by boundary points only, is
+   *    like the closest one that has some. If it stayed whole, it would join
+   *    both sides of a crack at a free surface, though without a force.
+   * 8. A point with $\mathbf m_p\cdot\mathbf m_I<0$ reads the twin of the
    *    separable function $I$.
    *
    * An initial slit is the same with labels given at the start.
@@ -268,7 +271,11 @@ namespace EBSMPM
     void
     close_gaps();
 
-    /** Step 7, and freezing; returns whether a pattern changed. */
+    /** Step 7. */
+    void
+    add_bare_functions(const CellPoints<dim> &boundary_points);
+
+    /** Step 8, and freezing; returns whether a pattern changed. */
     bool
     make_patterns(const CellPoints<dim> &points,
                   CrackLabels<dim>      &labels,

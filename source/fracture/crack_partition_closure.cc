@@ -1,0 +1,222 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+// The part of CrackPartition that decides about functions by looking at others:
+// those in gaps between separable functions, and those without material.
+
+#include <ebsmpm/fracture/crack_directions.h>
+#include <ebsmpm/fracture/crack_partition.h>
+#include <ebsmpm/fracture/lattice_neighbours.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace EBSMPM
+{
+  using namespace CrackDirections;
+
+  namespace
+  {
+    /** Reach of the closure, in cells. */
+    constexpr int closure_reach = 3;
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  CrackPartition<dim>::close_gaps()
+  {
+    std::vector<Key> candidates;
+    for (const auto &entry : table)
+      if (!entry.second.separable && !entry.second.at_junction &&
+          entry.second.damage_ahead > data.closure_damage)
+        candidates.push_back(entry.first);
+    const DataTable around = surroundings(table,
+                                          candidates,
+                                          closure_reach,
+                                          spline_space->communicator());
+
+    // Which of the others have material at all. (Boundary points may see
+    // functions that do not.)
+    std::vector<Key> unknown;
+    for (const auto &key : candidates)
+      for_each_neighbour(key, closure_reach, [&](const Key &other) {
+        if (around.find(other) == around.end())
+          unknown.push_back(other);
+      });
+    std::sort(unknown.begin(), unknown.end());
+    unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
+    const auto sound    = spline_space->query(unknown);
+    const auto is_sound = [&sound](const Key &key) {
+      const auto found = sound.find(key);
+      return found != sound.end() && found->second.fraction > 0.;
+    };
+
+    std::vector<Key> closed;
+    for (const auto &key : candidates)
+      {
+        const Tensor<1, dim> m = to_tensor(table.at(key).side);
+        if (m.norm_square() == 0.)
+          continue;
+        const double     h = spline_space->lattice().cell_extents(key.level)[0];
+        const Point<dim> x =
+          spline_space->lattice().greville_point(key, spline_space->degree());
+
+        // What lies along the ridge: separable functions, the outside, and
+        // functions that are intact, or else so far away that nobody knows what
+        // comes after them.
+        std::vector<Tensor<1, dim>> separable, outside, intact;
+        const auto                  is_at_reach = [&key](const Key &other) {
+          int steps = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            steps = std::max(steps, std::abs(other.index[d] - key.index[d]));
+          return steps == closure_reach;
+        };
+        for_each_neighbour(key, closure_reach, [&](const Key &other) {
+          const Tensor<1, dim> offset =
+            spline_space->lattice().greville_point(other,
+                                                   spline_space->degree()) -
+            x;
+          const double         along  = offset * m;
+          const Tensor<1, dim> across = offset - along * m;
+          if (across.norm() < 0.5 * h ||
+              across.norm() > (closure_reach + tie) * h)
+            return;
+          const auto found = around.find(other);
+          if (found != around.end())
+            {
+              if (found->second.separable && std::abs(along) < (2. + tie) * h)
+                separable.push_back(across / across.norm());
+              else if (!found->second.separable &&
+                       std::abs(along) < (0.5 + tie) * h &&
+                       (found->second.damage_ahead <= data.closure_damage ||
+                        is_at_reach(other)))
+                intact.push_back(across / across.norm());
+            }
+          else if (std::abs(along) < (0.5 + tie) * h)
+            (is_sound(other) ? intact : outside)
+              .push_back(across / across.norm());
+        });
+
+        // In 3-D, the outside counts only where nothing is intact ahead: else,
+        // a crack that runs along a free surface would find it diagonally ahead
+        // of its tip.
+        const auto any_opposite = [](const Tensor<1, dim>              &a,
+                                     const std::vector<Tensor<1, dim>> &list,
+                                     const double cosine) {
+          return std::any_of(list.begin(),
+                             list.end(),
+                             [&](const Tensor<1, dim> &b) {
+                               return a * b < -cosine;
+                             });
+        };
+        bool between = false;
+        for (const auto &a : separable)
+          between = between || any_opposite(a, separable, 0.7) ||
+                    (any_opposite(a, outside, 0.7) &&
+                     (dim < 3 || !any_opposite(a, intact, 0.3)));
+        if (between)
+          closed.push_back(key);
+      }
+    for (const auto &key : closed)
+      table[key].separable = true;
+  }
+
+
+
+  template <int dim>
+  void
+  CrackPartition<dim>::add_bare_functions(
+    const CellPoints<dim> &boundary_points)
+  {
+    const unsigned int n = spline_space->n_functions_per_cell();
+    std::vector<Key>   bare;
+    for (const auto &cell : boundary_points.cells())
+      {
+        const auto key = [&](const unsigned int i) {
+          return spline_space->cell_function(cell.index, cell.level, i);
+        };
+        bool is_near = false;
+        for (unsigned int i = 0; i < n && !is_near; ++i)
+          is_near = table.find(key(i)) != table.end();
+        for (unsigned int i = 0; i < n && is_near; ++i)
+          if (table.find(key(i)) == table.end() &&
+              spline_space->find(key(i))->fraction == 0.)
+            bare.push_back(key(i));
+      }
+    std::sort(bare.begin(), bare.end());
+    bare.erase(std::unique(bare.begin(), bare.end()), bare.end());
+
+    const DataTable    around = surroundings(table,
+                                          bare,
+                                          spline_space->degree(),
+                                          spline_space->communicator());
+    const unsigned int my_rank =
+      Utilities::MPI::this_mpi_process(spline_space->communicator());
+    typename FunctionDirectory<dim, unsigned int>::Table owners;
+    for (const auto &key : bare)
+      {
+        // Those at the smallest distance.
+        FunctionData   function;
+        Tensor<1, dim> side;
+        int            smallest = std::numeric_limits<int>::max();
+        for_each_neighbour(key, spline_space->degree(), [&](const Key &other) {
+          const auto found = around.find(other);
+          if (found == around.end())
+            return;
+          int square = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            square += Utilities::fixed_power<2>(other.index[d] - key.index[d]);
+          if (square > smallest)
+            return;
+          if (square < smallest)
+            {
+              smallest           = square;
+              function.separable = false;
+              side               = 0.;
+            }
+          if (found->second.separable)
+            {
+              const Tensor<1, dim> theirs = to_tensor(found->second.side);
+              function.separable          = true;
+              if (side * theirs >= 0.)
+                side += theirs;
+            }
+        });
+        if (!function.separable)
+          continue;
+        function.side = to_array(side / side.norm());
+        table[key]    = function;
+        owners[key]   = my_rank;
+      }
+    const FunctionDirectory<dim, unsigned int> directory(
+      spline_space->communicator());
+    for (const auto &entry :
+         directory.reduce(owners,
+                          [](const unsigned int a, const unsigned int b) {
+                            return std::min(a, b);
+                          }))
+      table[entry.first].owner = entry.second;
+  }
+
+
+
+  template void
+  CrackPartition<2>::close_gaps();
+  template void
+  CrackPartition<3>::close_gaps();
+
+  template void
+  CrackPartition<2>::add_bare_functions(const CellPoints<2> &);
+  template void
+  CrackPartition<3>::add_bare_functions(const CellPoints<3> &);
+} // namespace EBSMPM
