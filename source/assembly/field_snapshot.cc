@@ -32,6 +32,7 @@ namespace EBSMPM
     if (original.size() == 0)
       return;
     is_elsewhere  = false;
+    had_here      = Coefficients();
     functions     = space.share_functions();
     n_independent = space.n_independent();
     field.reinit(original, true);
@@ -43,9 +44,48 @@ namespace EBSMPM
 
   template <int dim>
   void
-  FieldSnapshot<dim>::grid_has_moved()
+  FieldSnapshot<dim>::reinit(const Coefficients &coefficients)
   {
     is_elsewhere = true;
+    had_here     = coefficients;
+    functions.reset();
+    n_independent = 0;
+    field.reinit(0);
+  }
+
+
+
+  template <int dim>
+  typename FieldSnapshot<dim>::Coefficients
+  FieldSnapshot<dim>::coefficients() const
+  {
+    if (empty() || is_elsewhere)
+      return had_here;
+
+    // Of functions that this process owned: no other one did.
+    const IndexSet     owned        = field.locally_owned_elements();
+    const unsigned int n_components = field.size() / n_independent;
+    Coefficients       result;
+    for (const auto &entry : *functions)
+      if (entry.second.index < n_independent &&
+          owned.is_element(n_components * entry.second.index))
+        {
+          result.keys.push_back(entry.first);
+          for (unsigned int a = 0; a < n_components; ++a)
+            result.values.push_back(
+              field(n_components * entry.second.index + a));
+        }
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  FieldSnapshot<dim>::grid_has_moved()
+  {
+    if (!empty() && !is_elsewhere)
+      reinit(coefficients());
   }
 
 
@@ -54,7 +94,7 @@ namespace EBSMPM
   bool
   FieldSnapshot<dim>::empty() const
   {
-    return field.size() == 0;
+    return field.size() == 0 && !is_elsewhere;
   }
 
 
@@ -68,45 +108,13 @@ namespace EBSMPM
     if (empty())
       return;
     target.zero_out_ghost_values();
-    const auto &owned = space.locally_owned_independent();
-
     if (is_elsewhere)
       {
-        // What each process remembers of functions that it owned, for those
-        // that own them now. A function was owned by one process only.
-        struct Coefficients
-        {
-          bool                             is_known = false;
-          std::array<double, n_components> values{};
-        };
-        using Directory = FunctionDirectory<dim, Coefficients>;
-        typename Directory::Table table;
-        const auto                old_range = field.locally_owned_elements();
-        for (const auto &entry : *functions)
-          if (entry.second.index < n_independent &&
-              old_range.is_element(n_components * entry.second.index))
-            {
-              Coefficients &known = table[entry.first];
-              known.is_known      = true;
-              for (unsigned int a = 0; a < n_components; ++a)
-                known.values[a] = field(n_components * entry.second.index + a);
-            }
-        for (const auto &entry : space.functions())
-          if (owned.is_element(entry.second.index))
-            table.emplace(entry.first, Coefficients());
-        table =
-          Directory(space.communicator())
-            .reduce(table, [](const Coefficients &a, const Coefficients &b) {
-              return a.is_known ? a : b;
-            });
-        for (const auto &entry : space.functions())
-          if (owned.is_element(entry.second.index))
-            for (unsigned int a = 0; a < n_components; ++a)
-              target(n_components * entry.second.index + a) =
-                table.at(entry.first).values[a];
+        fetch<n_components>(space, target);
         return;
       }
 
+    const auto &owned = space.locally_owned_independent();
     for (const auto &entry : space.functions())
       {
         if (!owned.is_element(entry.second.index))
@@ -118,6 +126,47 @@ namespace EBSMPM
           target(n_components * entry.second.index + a) =
             field(n_components * found->second.index + a);
       }
+  }
+
+
+
+  template <int dim>
+  template <int n_components>
+  void
+  FieldSnapshot<dim>::fetch(const SplineSpace<dim> &space,
+                            LA::FieldVector        &target) const
+  {
+    AssertDimension(had_here.values.size(),
+                    n_components * had_here.keys.size());
+
+    // What each process knows, for those that own the functions now.
+    struct Known
+    {
+      bool                             is_known = false;
+      std::array<double, n_components> values{};
+    };
+    using Directory = FunctionDirectory<dim, Known>;
+    typename Directory::Table table;
+    for (unsigned int i = 0; i < had_here.keys.size(); ++i)
+      {
+        Known &known   = table[had_here.keys[i]];
+        known.is_known = true;
+        for (unsigned int a = 0; a < n_components; ++a)
+          known.values[a] = had_here.values[n_components * i + a];
+      }
+    const auto &owned = space.locally_owned_independent();
+    for (const auto &entry : space.functions())
+      if (owned.is_element(entry.second.index))
+        table.emplace(entry.first, Known());
+    table = Directory(space.communicator())
+              .reduce(table, [](const Known &a, const Known &b) {
+                return a.is_known ? a : b;
+              });
+    for (const auto &entry : space.functions())
+      if (owned.is_element(entry.second.index))
+        for (unsigned int a = 0; a < n_components; ++a)
+          target(n_components * entry.second.index + a) =
+            table.at(entry.first).values[a];
   }
 
 

@@ -413,6 +413,34 @@ namespace EBSMPM
   PointSet<dim, View>::finish_repartitioning()
   {
     particle_handler.unpack_after_coarsening_and_refinement();
+    restore_order();
+  }
+
+
+
+  template <int dim, typename View>
+  void
+  PointSet<dim, View>::prepare_for_serialization()
+  {
+    particle_handler.prepare_for_serialization();
+  }
+
+
+
+  template <int dim, typename View>
+  void
+  PointSet<dim, View>::deserialize()
+  {
+    particle_handler.deserialize();
+    restore_order();
+  }
+
+
+
+  template <int dim, typename View>
+  void
+  PointSet<dim, View>::restore_order()
+  {
     sort();
     for (const auto &cell : tria.active_cell_iterators())
       if (cell->is_locally_owned())

@@ -419,4 +419,23 @@ namespace EBSMPM
                   prm,
                   Patterns::Integer(0));
   }
+
+
+
+  Parameters::Checkpoint::Checkpoint()
+    : ParameterAcceptor("Checkpoint")
+  {
+    add_parameter(
+      "Interval",
+      interval,
+      "Number of load steps between two checkpoints, and one more at "
+      "the end; zero for none. Only the last is kept.",
+      prm,
+      Patterns::Integer(0));
+    add_parameter("Resume",
+                  resume,
+                  "Whether to continue the run in 'Output/Directory' from its "
+                  "last checkpoint. Increments beyond it, and how systems of "
+                  "equations are solved, may be others now.");
+  }
 } // namespace EBSMPM

@@ -120,6 +120,7 @@ namespace EBSMPM
     , tractions(parameters.loading.tractions,
                 parameters.boundary_names(),
                 conditions.formulas())
+    , checkpoints(parameters.output.directory + "/checkpoint", communicator)
     , pcout(screen != nullptr ? *screen : std::cout,
             screen != nullptr &&
               Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -136,8 +137,8 @@ namespace EBSMPM
 
 
   template <int dim>
-  void
-  Simulation<dim>::make_grid()
+  unsigned int
+  Simulation<dim>::make_coarse_grid()
   {
     const double     h = parameters.cell_size();
     const Point<dim> lower =
@@ -173,8 +174,16 @@ namespace EBSMPM
                                               n_coarse,
                                               lower,
                                               end);
-    triangulation.refine_global(level);
+    return level;
+  }
 
+
+
+  template <int dim>
+  void
+  Simulation<dim>::make_grid()
+  {
+    triangulation.refine_global(make_coarse_grid());
     if (parameters.grid.balance)
       {
         const auto data = fill_data<dim>(parameters);
@@ -262,78 +271,43 @@ namespace EBSMPM
 
   template <int dim>
   void
-  Simulation<dim>::open_files()
+  Simulation<dim>::make_step()
   {
-    std::vector<std::string> columns;
-    const std::string        components = "xyz";
-    for (const auto &name : parameters.boundary_names())
-      for (unsigned int d = 0; d < dim; ++d)
-        columns.push_back("force_" + name + "_" + components[d]);
-    for (const auto &name : {"elastic_energy",
-                             "fracture_energy",
-                             "penalty_energy",
-                             "crack_length",
-                             "passes",
-                             "newton_iterations",
-                             "linear_iterations",
-                             "factorisations",
-                             "bisections",
-                             "damage_change",
-                             "residual",
-                             "independent_functions",
-                             "deficient_functions",
-                             "twin_functions",
-                             "largest_extension_weight",
-                             "pieces",
-                             "free_pieces",
-                             "smallest_opening",
-                             "conjugate_force",
-                             "opened_volume",
-                             "wall_time"})
-      columns.push_back(name);
-
-    const std::string &directory = parameters.output.directory;
-    make_directory(directory, communicator);
-    history = std::make_unique<HistoryWriter>(directory + "/history.csv",
-                                              columns,
-                                              communicator,
-                                              overwrite);
-    point_series =
-      std::make_unique<VTUSeries>(directory, "points", communicator, overwrite);
-    grid_series =
-      std::make_unique<VTUSeries>(directory, "grid", communicator, overwrite);
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      {
-        log_file.open(directory + "/log.txt");
-        std::ofstream echo(directory + "/parameters.prm");
-        ParameterAcceptor::prm.print_parameters(echo, ParameterHandler::PRM);
-      }
+    step =
+      std::make_unique<StaggeredStep<dim>>(points,
+                                           boundary_points,
+                                           *material,
+                                           degradation,
+                                           parameters.damage.fracture_energy,
+                                           parameters.length_scale(),
+                                           penalty,
+                                           parameters.step_data<dim>(),
+                                           &timer);
+    std::vector<types::boundary_id> faces;
+    for (unsigned int id = parameters.boundaries().size();
+         id < parameters.boundary_names().size();
+         ++id)
+      faces.push_back(id);
+    step->set_tractions(tractions, faces);
   }
 
 
 
   template <int dim>
   void
-  Simulation<dim>::write_header()
+  Simulation<dim>::set_up()
   {
-    std::ostringstream text;
-    text << "ebsmpm " << EBSMPM_VERSION << ", "
-         << Utilities::MPI::n_mpi_processes(communicator) << " process(es), "
-         << dim << "d\n"
-         << "  grid:            " << triangulation.n_global_active_cells()
-         << " cells of size " << parameters.cell_size() << ", degree "
-         << parameters.grid.degree << '\n'
-         << "  material points: " << points.n_global() << '\n'
-         << "  boundary points: " << boundary_points.n_global() << '\n'
-         << "  functions:       "
-         << "see history.csv\n"
-         << "  Nitsche penalty: " << penalty << " = "
-         << penalty * parameters.cell_size() / material->nitsche_stiffness()
-         << " (K+4G/3)/h\n"
-         << "  results in:      " << parameters.output.directory << '\n';
-    pcout << text.str() << std::flush;
-    if (log_file)
-      log_file << text.str() << std::flush;
+    TimerOutput::Scope scope(timer, "set-up");
+    if (parameters.checkpoint.resume)
+      read_checkpoint();
+    else
+      {
+        make_grid();
+        make_points();
+        make_notch();
+        make_step();
+      }
+    last_imbalance = imbalance();
   }
 
 
@@ -357,10 +331,11 @@ namespace EBSMPM
         for (unsigned int d = 0; d < dim; ++d)
           values.push_back(found == reactions.end() ? 0. : found->second[d]);
       }
-    last_force = driven.first == numbers::invalid_unsigned_int ?
-                   report.conjugate_force :
-                   values[dim * driven.first + driven.second];
-    peak_force = std::max(peak_force, std::abs(last_force));
+    progress.last_force = driven.first == numbers::invalid_unsigned_int ?
+                            report.conjugate_force :
+                            values[dim * driven.first + driven.second];
+    progress.peak_force =
+      std::max(progress.peak_force, std::abs(progress.last_force));
     for (const double value : {energies.elastic,
                                area * parameters.damage.fracture_energy,
                                energies.penalty,
@@ -381,16 +356,16 @@ namespace EBSMPM
                                report.opening.smallest,
                                report.conjugate_force,
                                report.opened_volume,
-                               wall_clock.wall_time()})
+                               progress.wall_time + wall_clock.wall_time()})
       values.push_back(value);
-    history->write(n_step, load, last_force, values);
+    history->write(n_step, load, progress.last_force, values);
 
     std::ostringstream text;
     text << "step " << std::setw(5) << n_step << "  load " << std::setw(11)
-         << load << "  force " << std::setw(13) << last_force << "  passes "
-         << std::setw(3) << report.passes << "  newton " << std::setw(3)
-         << report.newton_iterations << "  linear " << std::setw(4)
-         << report.linear_iterations << "  new " << std::setw(2)
+         << load << "  force " << std::setw(13) << progress.last_force
+         << "  passes " << std::setw(3) << report.passes << "  newton "
+         << std::setw(3) << report.newton_iterations << "  linear "
+         << std::setw(4) << report.linear_iterations << "  new " << std::setw(2)
          << report.refreshes << "  twins " << std::setw(5) << space.n_twins()
          << (report.indefinite ? "  (indefinite tangent)" : "")
          << (report.smoothed ? "  (branches held)" : "");
@@ -402,9 +377,7 @@ namespace EBSMPM
     if (report.opening.smallest < -noteworthy_overlap * parameters.cell_size())
       text << "  (lips overlap by " << -report.opening.smallest << ")";
     text << '\n';
-    pcout << text.str() << std::flush;
-    if (log_file)
-      log_file << text.str() << std::flush;
+    print(text.str());
   }
 
 
@@ -463,7 +436,7 @@ namespace EBSMPM
   double
   Simulation<dim>::driven_force() const
   {
-    return last_force;
+    return progress.last_force;
   }
 
 
@@ -482,99 +455,111 @@ namespace EBSMPM
 
 
   template <int dim>
+  bool
+  Simulation<dim>::is_broken() const
+  {
+    return parameters.loading.stop_below > 0. &&
+           std::abs(progress.last_force) <
+             parameters.loading.stop_below * progress.peak_force;
+  }
+
+
+
+  template <int dim>
+  bool
+  Simulation<dim>::advance(const double increment)
+  {
+    const unsigned int n_step  = progress.step + 1;
+    const double       load    = progress.load + increment;
+    const double       minimum = parameters.loading.minimum_increment;
+    AssertThrow(increment >= minimum,
+                ExcStepFailure(n_step, increment, failure));
+
+    typename StaggeredStep<dim>::Report report;
+    try
+      {
+        report = step->solve(conditions,
+                             load,
+                             progress.last_increment > 0. ?
+                               increment / progress.last_increment :
+                               0.);
+      }
+    catch (const ExcSolverFailure &exception)
+      {
+        std::ostringstream message;
+        exception.print_info(message);
+        failure          = Utilities::trim(message.str());
+        progress.allowed = 0.5 * increment;
+
+        std::ostringstream text;
+        text << "step " << std::setw(5) << n_step << "  load " << std::setw(11)
+             << load << "  failed: " << failure << " Trying increment "
+             << progress.allowed << ".\n";
+        print(text.str());
+        AssertThrow(progress.allowed >= minimum,
+                    ExcStepFailure(n_step, increment, failure));
+        return false;
+      }
+
+    progress.step           = n_step;
+    progress.load           = load;
+    progress.last_increment = increment;
+    write_step(n_step, load, report);
+    step->accept();
+    balance(n_step);
+    signals.step_done(n_step, load, report);
+    if (report.passes <= parameters.loading.easy_passes &&
+        progress.allowed < std::numeric_limits<double>::max())
+      progress.allowed = 2. * progress.allowed;
+    return true;
+  }
+
+
+
+  template <int dim>
   void
   Simulation<dim>::run()
   {
-    open_files();
-    {
-      TimerOutput::Scope scope(timer, "set-up");
-      make_grid();
-      make_points();
-      make_notch();
-      step =
-        std::make_unique<StaggeredStep<dim>>(points,
-                                             boundary_points,
-                                             *material,
-                                             degradation,
-                                             parameters.damage.fracture_energy,
-                                             parameters.length_scale(),
-                                             penalty,
-                                             parameters.step_data<dim>(),
-                                             &timer);
-      std::vector<types::boundary_id> faces;
-      for (unsigned int id = parameters.boundaries().size();
-           id < parameters.boundary_names().size();
-           ++id)
-        faces.push_back(id);
-      step->set_tractions(tractions, faces);
-    }
+    // A new run does not begin if it must not write; one that is continued does
+    // not write before it is known that it can be.
+    if (!parameters.checkpoint.resume)
+      open_files();
+    set_up();
+    if (parameters.checkpoint.resume)
+      reopen_files();
     write_header();
-    last_imbalance = imbalance();
 
-    double       load           = 0.;
-    double       last_increment = 0.;
-    double       allowed        = std::numeric_limits<double>::max();
-    unsigned int n_step         = 0;
-    std::string  failure;
-    for (auto entry = table_entry(load); entry.first > 0.;
-         entry      = table_entry(load))
+    unsigned int last_fields     = progress.step;
+    unsigned int last_checkpoint = progress.step;
+    const auto   write_results   = [&](const bool at_end) {
+      const auto is_due = [&](const unsigned int interval,
+                              const unsigned int last_step) {
+        return interval > 0 && progress.step != last_step &&
+               (at_end || progress.step % interval == 0);
+      };
+      if (is_due(parameters.output.interval, last_fields))
+        {
+          write_fields(progress.step, progress.load);
+          last_fields = progress.step;
+        }
+      if (is_due(parameters.checkpoint.interval, last_checkpoint))
+        {
+          write_checkpoint();
+          last_checkpoint = progress.step;
+        }
+    };
+    for (auto entry = table_entry(progress.load);
+         entry.first > 0. && !is_broken();
+         entry = table_entry(progress.load))
       {
-             // Up to the end of the interval, without a sliver before it.
-        double increment = std::min(entry.first, allowed);
-        if (load + increment > entry.second - 1e-6 * increment)
-          increment = entry.second - load;
-        AssertThrow(increment >= parameters.loading.minimum_increment,
-                    ExcStepFailure(n_step + 1, increment, failure));
-        const double next = load + increment;
-
-        typename StaggeredStep<dim>::Report report;
-        try
-          {
-                 report =
-                   step->solve(conditions,
-                          next,
-                          last_increment > 0. ? increment / last_increment :
-                                                     0.);
-          }
-        catch (const ExcSolverFailure &exception)
-          {
-                 std::ostringstream message;
-                 exception.print_info(message);
-                 failure = Utilities::trim(message.str());
-                 allowed = 0.5 * increment;
-
-                 std::ostringstream text;
-                 text << "step " << std::setw(5) << n_step + 1 << "  load "
-                      << std::setw(11) << next << "  failed: " << failure
-                      << " Trying increment " << allowed << ".\n";
-                 pcout << text.str() << std::flush;
-                 if (log_file)
-              log_file << text.str() << std::flush;
-            AssertThrow(allowed >= parameters.loading.minimum_increment,
-                        ExcStepFailure(n_step + 1, increment, failure));
-                 continue;
-          }
-
-        ++n_step;
-        load           = next;
-        last_increment = increment;
-        write_step(n_step, load, report);
-        step->accept();
-        balance(n_step);
-        signals.step_done(n_step, load, report);
-        if (parameters.output.interval > 0 &&
-            n_step % parameters.output.interval == 0)
-          write_fields(n_step, load);
-        if (report.passes <= parameters.loading.easy_passes &&
-            allowed < std::numeric_limits<double>::max())
-          allowed = 2. * allowed;
-        if (parameters.loading.stop_below > 0. &&
-            std::abs(last_force) < parameters.loading.stop_below * peak_force)
-          break;
+        // Up to the end of the interval, without a sliver before it.
+        double increment = std::min(entry.first, progress.allowed);
+        if (progress.load + increment > entry.second - 1e-6 * increment)
+          increment = entry.second - progress.load;
+        if (advance(increment))
+          write_results(false);
       }
-    if (parameters.output.interval > 0 &&
-        n_step % parameters.output.interval != 0)
-      write_fields(n_step, load);
+    write_results(true);
 
     timer.print_summary();
     if (log_file)

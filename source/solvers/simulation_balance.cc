@@ -36,6 +36,25 @@ namespace EBSMPM
 
   template <int dim>
   void
+  Simulation<dim>::distribute_by_points()
+  {
+    points.prepare_for_repartitioning();
+    boundary_points.prepare_for_repartitioning();
+    const auto &handler = points.handler();
+    repartition_by_weight(
+      triangulation,
+      [&](const typename Triangulation<dim>::cell_iterator &cell) {
+        return handler.n_particles_in_cell(
+          typename Triangulation<dim>::active_cell_iterator(cell));
+      });
+    points.finish_repartitioning();
+    boundary_points.finish_repartitioning();
+  }
+
+
+
+  template <int dim>
+  void
   Simulation<dim>::balance(const unsigned int n_step)
   {
     // If the cells are too large for a better distribution, do not try again
@@ -47,28 +66,14 @@ namespace EBSMPM
       return;
 
     TimerOutput::Scope scope(timer, "balance");
-    step->repartition([&]() {
-      points.prepare_for_repartitioning();
-      boundary_points.prepare_for_repartitioning();
-      const auto &handler = points.handler();
-      repartition_by_weight(
-        triangulation,
-        [&](const typename Triangulation<dim>::cell_iterator &cell) {
-          return handler.n_particles_in_cell(
-            typename Triangulation<dim>::active_cell_iterator(cell));
-        });
-      points.finish_repartitioning();
-      boundary_points.finish_repartitioning();
-    });
+    step->repartition([this]() { distribute_by_points(); });
     last_imbalance = imbalance();
 
     std::ostringstream text;
     text << "step " << std::setw(5) << n_step
          << "  grid distributed anew, imbalance " << before << " -> "
          << last_imbalance << '\n';
-    pcout << text.str() << std::flush;
-    if (log_file)
-      log_file << text.str() << std::flush;
+    print(text.str());
   }
 
 
@@ -77,6 +82,11 @@ namespace EBSMPM
   Simulation<2>::imbalance() const;
   template double
   Simulation<3>::imbalance() const;
+
+  template void
+  Simulation<2>::distribute_by_points();
+  template void
+  Simulation<3>::distribute_by_points();
 
   template void
   Simulation<2>::balance(const unsigned int);

@@ -297,7 +297,7 @@ namespace EBSMPM
     if (data.refuse_indefinite && report.indefinite_at_end)
       check_stability();
     sum_up_boundary(conditions, load, report);
-    report.n_pieces = u_system.pieces().pieces().size();
+    report.n_pieces      = u_system.pieces().pieces().size();
     report.n_free_pieces = u_system.pieces().n_free();
     report.n_junctions   = partition.n_junctions();
     if (u_space.n_twins() > 0)
@@ -442,22 +442,6 @@ namespace EBSMPM
     material_points.sort();
     boundary_material_points.sort();
     begin(FieldSnapshot<dim>(d_space, d_field));
-  }
-
-
-
-  template <int dim>
-  void
-  StaggeredStep<dim>::repartition(const std::function<void()> &move)
-  {
-    FieldSnapshot<dim> old_damage(d_space, d_field);
-    old_damage.grid_has_moved();
-    last_increment.grid_has_moved();
-
-    // Nothing of the old distribution is to be looked at again.
-    u_increment.reinit(0);
-    move();
-    begin(old_damage);
   }
 
 

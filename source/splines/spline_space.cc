@@ -99,7 +99,7 @@ namespace EBSMPM
 
     // Who was standard before? If nobody here has seen a function, ask.
     FunctionTable elsewhere;
-    const bool    remember = (hysteresis > 0. && n_active_functions > 0);
+    const bool    remember = (hysteresis > 0. && change_counter > 0);
     if (remember)
       {
         std::vector<Key> unknown;
@@ -148,9 +148,9 @@ namespace EBSMPM
     for (auto &entry : result)
       {
         Function    &function = entry.second;
-        const double limit = (function.category == FunctionClass::standard ?
-                                (1. - hysteresis) * threshold :
-                                threshold) *
+        const double limit    = (function.category == FunctionClass::standard ?
+                                   (1. - hysteresis) * threshold :
+                                   threshold) *
                              (1. + 1e-9);
         function.category = entry.first.part != 0 ? FunctionClass::twin :
                             function.fraction > limit ?
@@ -258,6 +258,45 @@ namespace EBSMPM
     relevant = IndexSet(n_active_functions);
     relevant.add_indices(indices.begin(), indices.end());
     relevant.compress();
+  }
+
+
+
+  template <int dim>
+  std::vector<typename SplineSpace<dim>::Key>
+  SplineSpace<dim>::standard_functions() const
+  {
+    std::vector<Key> keys;
+    keys.reserve(owned_independent.n_elements());
+    for (const auto &entry : *table)
+      if (owned_independent.is_element(entry.second.index))
+        keys.push_back(entry.first);
+    std::sort(keys.begin(), keys.end());
+    return keys;
+  }
+
+
+
+  template <int dim>
+  void
+  SplineSpace<dim>::recall(const std::vector<Key> &standard_functions)
+  {
+    table                   = std::make_shared<const FunctionTable>();
+    n_active_functions      = 0;
+    n_independent_functions = 0;
+    n_twin_functions        = 0;
+    owned_independent       = IndexSet();
+    owned                   = IndexSet();
+    relevant                = IndexSet();
+
+    // As if somebody else had seen them all.
+    std::vector<typename FunctionDirectory<dim, Function>::Entry> entries;
+    entries.reserve(standard_functions.size());
+    for (const Key &key : standard_functions)
+      entries.push_back({key, Function()});
+    directory.clear();
+    directory.publish(entries);
+    ++change_counter;
   }
 
 

@@ -19,9 +19,11 @@ where something is not as it should be.
 import csv
 import glob
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 PROGRAM, SOURCE, CASE = sys.argv[1:4]
 COARSE = os.path.join(SOURCE, "tutorials/step-5/coarse.prm")
@@ -43,15 +45,33 @@ SMALL = {
 }
 
 
-def call(directory, settings, ranks=1, arguments=(COARSE,)):
-    """Run the program; return the finished process."""
+def command_line(directory, settings, ranks, arguments):
     command = [PROGRAM, *arguments]
     for name, value in settings.items():
         command += ["--set", f"{name} = {value}"]
     command += ["--set", f"Output/Directory = {directory}"]
     if ranks > 1:
         command = ["mpiexec", "--bind-to", "none", "-n", str(ranks)] + command
-    return subprocess.run(command, capture_output=True, text=True)
+    return command
+
+
+def call(directory, settings, ranks=1, arguments=(COARSE,)):
+    """Run the program; return the finished process."""
+    return subprocess.run(
+        command_line(directory, settings, ranks, arguments),
+        capture_output=True,
+        text=True,
+    )
+
+
+def start(directory, settings):
+    """Start the program on one process; return the running process."""
+    return subprocess.Popen(
+        command_line(directory, settings, 1, (COARSE,)),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
 
 
 def history(settings, ranks=1, parameter_file=COARSE):
@@ -287,6 +307,160 @@ def run_balance():
                 ]
         assert result.stdout.count("distributed anew") > 1, result.stdout
         compare(reference, table, f"{ranks} processes")
+
+
+# The load grows by powers of two: a run that ends early ends with the same
+# number, to the last digit, with which a longer one goes on.
+def restart_settings(steps, **more):
+    """Checkpoints every eight steps. The first four steps go to 16/4096. (On
+    several processes, no two runs with MUMPS are the same to the last digit.)"""
+    return dict(
+        SMALL,
+        **{
+            "Loading/Increments": f"16/4096: 1/1024, {steps + 12}/4096: 1/4096",
+            "Output/Interval": "5",
+            "Checkpoint/Interval": "8",
+            "Linear solver/Displacement": "KLU",
+        },
+        **more,
+    )
+
+
+def read_lines(directory):
+    """The history as text, without the column with the time."""
+    with open(os.path.join(directory, "history.csv")) as file:
+        return [line.rstrip().rsplit(",", 1)[0] for line in file]
+
+
+def read_table(directory):
+    with open(os.path.join(directory, "history.csv")) as file:
+        return [
+            {k: float(v) for k, v in row.items()} for row in csv.DictReader(file)
+        ]
+
+
+def series(directory):
+    """The files that the PVD files list."""
+    lines = []
+    for name in ("points.pvd", "grid.pvd"):
+        with open(os.path.join(directory, name)) as file:
+            lines += [line for line in file if "<DataSet" in line]
+    return lines
+
+
+def succeed(*arguments):
+    result = call(*arguments)
+    assert result.returncode == 0, result.stdout[-2000:] + result.stderr
+    return result
+
+
+def run_restart():
+    """A run that is continued from a checkpoint is the same as one that was not
+    interrupted: to the last digit on the same number of processes, to rounding
+    errors on another. The crack has grown by then."""
+    half, full = restart_settings(steps=24), restart_settings(steps=48)
+    again = dict(full, **{"Checkpoint/Resume": "true"})
+    with tempfile.TemporaryDirectory() as folder:
+        whole, tables = {}, {}
+        for ranks in (1, 2):
+            whole[ranks] = os.path.join(folder, f"whole_{ranks}")
+            succeed(whole[ranks], full, ranks)
+            tables[ranks] = read_table(whole[ranks])
+        twins = [row["twin_functions"] for row in tables[1]]
+        assert twins[0] < twins[23] < twins[-1], twins
+
+        for ranks, next_ranks in ((1, (1,)), (2, (1, 2, 3))):
+            first = os.path.join(folder, f"first_{ranks}")
+            succeed(first, half, ranks)
+            for n in next_ranks:
+                directory = os.path.join(folder, f"{ranks}_{n}")
+                shutil.copytree(first, directory)
+                succeed(directory, again, n)
+                what = f"{ranks} and then {n} processes"
+                compare(tables[ranks], read_table(directory), what)
+                if n == ranks:
+                    assert read_lines(whole[n]) == read_lines(directory), what
+                # The last fields of the first run remain.
+                assert len(series(directory)) == len(series(whole[1])) + 2
+                with open(os.path.join(directory, "log.txt")) as file:
+                    log = file.read()
+                assert "step     1" in log and "after step 24" in log, log
+        check_killed(folder, full, whole[1])
+        check_refused(os.path.join(folder, "first_1"), again)
+
+
+def check_killed(folder, settings, whole):
+    """A run that is killed continues from its last checkpoint, and what it has
+    computed since then is computed again."""
+    directory = os.path.join(folder, "killed")
+    checkpoints = os.path.join(directory, "checkpoint")
+    process = start(directory, settings)
+    while process.poll() is None and not glob.glob(f"{checkpoints}/step_*"):
+        time.sleep(0.01)
+    while process.poll() is None and len(read_lines(directory)) < 8 + 4:
+        time.sleep(0.01)
+    process.kill()
+    process.communicate()
+    # As if it had been killed while it wrote the next checkpoint.
+    os.makedirs(os.path.join(checkpoints, "new"), exist_ok=True)
+    with open(os.path.join(checkpoints, "new", "run"), "w") as file:
+        file.write("nothing")
+    succeed(directory, dict(settings, **{"Checkpoint/Resume": "true"}))
+    assert read_lines(directory) == read_lines(whole)
+    assert series(directory) == series(whole)
+    assert len(os.listdir(checkpoints)) == 1, os.listdir(checkpoints)
+
+
+def check_refused(directory, settings):
+    """What must not be continued is refused, and left as it is."""
+    refuse(settings, ["no checkpoint", "Checkpoint/Resume"])
+    before = {
+        name: os.stat(os.path.join(directory, name)).st_mtime_ns
+        for name in os.listdir(directory)
+    }
+    late = settings["Loading/Increments"].replace("1/1024", "1/2048")
+    reason = "as in the run that is to be continued"
+    for name, value, old, why in (
+        ("Damage/Fracture energy", "3e-3", "2.7e-3", reason),
+        ("Background grid/Cell size", "1/16", "1/15", reason),
+        ("Loading/Increments", late, "1/1024", "up to the load"),
+        ("Checkpoint/Resume", "false", "", "checkpoint"),
+    ):
+        result = call(directory, dict(settings, **{name: value}))
+        assert result.returncode != 0, name
+        lines = result.stderr.strip().splitlines()
+        assert len(lines) == 1, result.stderr
+        words = (name, value, old) if old else (directory, "overwrite")
+        for word in (*words, why):
+            assert word in lines[0], f"'{word}' is not in '{lines[0]}'"
+        for file, time_stamp in before.items():
+            path = os.path.join(directory, file)
+            assert os.stat(path).st_mtime_ns == time_stamp, path
+
+
+def run_restart_3d():
+    """The same in 3-D, on another number of processes; and increments, output
+    and solvers that are others from there on."""
+    settings = dict(
+        THIN,
+        **{
+            "Background grid/Cell size": "1/9",
+            "Background grid/Balance": "false",
+            "Damage/Length scale": "2*h",
+            "Loading/Increments": "1/256: 1/512, 5/512: 1/1024",
+            "Checkpoint/Interval": "4",
+        },
+    )
+    reference = history(settings, 2)
+    first = dict(settings, **{"Loading/Increments": "1/256: 1/512, 6/1024: 1/1024"})
+    again = dict(settings, **{"Checkpoint/Resume": "true", "Output/Interval": "2"})
+    with tempfile.TemporaryDirectory() as folder:
+        for ranks in (2, 3):
+            directory = os.path.join(folder, f"run_{ranks}")
+            succeed(directory, first, 2)
+            succeed(directory, again, ranks)
+            table = read_table(directory)
+            compare(reference, table, f"3-D, {ranks}", tolerance=1e-6)
 
 
 def run_pressure():

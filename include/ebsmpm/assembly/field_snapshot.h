@@ -11,11 +11,14 @@
 #define ebsmpm_assembly_field_snapshot_h
 
 #include <ebsmpm/lac/types.h>
+
 #include <ebsmpm/splines/spline_space.h>
 
 #include <deal.II/base/types.h>
 
 #include <deal.II/lac/affine_constraints.h>
+
+#include <boost/serialization/vector.hpp>
 
 #include <memory>
 #include <vector>
@@ -40,6 +43,24 @@ namespace EBSMPM
   class FieldSnapshot
   {
   public:
+    /**
+     * A part of a field that can travel: some independent functions, and their
+     * coefficients, all components of a function one after the other.
+     */
+    struct Coefficients
+    {
+      std::vector<FunctionKey<dim>> keys;
+      std::vector<double>           values;
+
+      /** Write them to an archive, or read them. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &keys &values;
+      }
+    };
+
     /** Constructor of an empty snapshot. */
     FieldSnapshot() = default;
 
@@ -58,6 +79,21 @@ namespace EBSMPM
      */
     void
     reinit(const SplineSpace<dim> &space, const LA::FieldVector &field);
+
+    /**
+     * Remember the coefficients that all processes give together; each function
+     * must come from one process, no matter from which. transfer() asks for
+     * them and is collective, as after grid_has_moved().
+     */
+    void
+    reinit(const Coefficients &coefficients);
+
+    /**
+     * Return the coefficients that this process can tell the others: those of
+     * all processes together are the field.
+     */
+    Coefficients
+    coefficients() const;
 
     /**
      * Say that the grid has been distributed anew, so that the functions of a
@@ -85,7 +121,15 @@ namespace EBSMPM
 
     types::global_dof_index n_independent = 0;
     LA::FieldVector         field;
-    bool                    is_elsewhere = false;
+
+    /** Whether there are, instead, coefficients of whoever had them. */
+    bool         is_elsewhere = false;
+    Coefficients had_here;
+
+    /** The part of transfer() that asks other processes. */
+    template <int n_components>
+    void
+    fetch(const SplineSpace<dim> &space, LA::FieldVector &field) const;
   };
 
 
@@ -100,9 +144,9 @@ namespace EBSMPM
   std::vector<double>
   cell_coefficients(
     const typename Triangulation<dim>::active_cell_iterator &cell,
-    const SplineSpace<dim> &                                 space,
-    const AffineConstraints<double> &                        constraints,
-    const LA::FieldVector &                                  field);
+    const SplineSpace<dim>                                  &space,
+    const AffineConstraints<double>                         &constraints,
+    const LA::FieldVector                                   &field);
 } // namespace EBSMPM
 
 #endif

@@ -123,6 +123,18 @@ namespace EBSMPM
     finish_repartitioning();
 
     /**
+     * To be called before Triangulation::save(), which then writes the points
+     * with the grid, and after Triangulation::load(), which reads them, on any
+     * number of processes. Several sets on the same grid must be told in the
+     * same order in both cases. Collective.
+     */
+    void
+    prepare_for_serialization();
+
+    void
+    deserialize();
+
+    /**
      * Make this set a copy of another one on the same grid, for instance to
      * return to an earlier state. Collective.
      */
@@ -171,6 +183,12 @@ namespace EBSMPM
     std::vector<types::particle_index>
     number_along_curve(const std::vector<NewPoint> &points,
                        std::vector<unsigned int>   &order) const;
+
+    /**
+     * Put points that deal.II has unpacked into the order they had.
+     */
+    void
+    restore_order();
 
     /**
      * Put the points of a cell into the order of their numbers.

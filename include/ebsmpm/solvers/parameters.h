@@ -194,6 +194,15 @@ namespace EBSMPM
       unsigned int interval  = 20;
     } output;
 
+    /** Section "Checkpoint". */
+    struct Checkpoint : public ParameterAcceptor
+    {
+      Checkpoint();
+
+      unsigned int interval = 0;
+      bool         resume   = false;
+    } checkpoint;
+
     /**
      * Check all values as far as possible without a grid. Raises ExcParameter
      * or ExcInput.

@@ -23,6 +23,7 @@
 #include <ebsmpm/solvers/parameters.h>
 #include <ebsmpm/solvers/staggered_step.h>
 
+#include <ebsmpm/output/checkpoint_folder.h>
 #include <ebsmpm/output/files.h>
 #include <ebsmpm/output/history.h>
 #include <ebsmpm/output/vtu_series.h>
@@ -37,7 +38,10 @@
 #include <boost/signals2.hpp>
 
 #include <fstream>
+#include <limits>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace EBSMPM
 {
@@ -56,6 +60,18 @@ namespace EBSMPM
    * <tt>points.pvd</tt> and <tt>grid.pvd</tt> with the fields, the parameters
    * in <tt>parameters.prm</tt> and a log with a line per step in
    * <tt>log.txt</tt>.
+   *
+   * A run can be continued by another one, on any number of processes, from its
+   * last checkpoint, see the section "Checkpoint" of the parameters and
+   * CheckpointFolder. A checkpoint consists of the grid with all points, as
+   * deal.II writes them, a file with the StaggeredStep::Memory of each process,
+   * and one with all else. Having written it, the run itself goes on from
+   * nothing else: it makes its factorisations anew, and distributes the grid as
+   * the continued run does. Therefore, on the same number of processes and with
+   * the same interval, a run that is continued is the same, to the last digit,
+   * as one that was never interrupted; unless no two runs are, as with MUMPS on
+   * several processes. Otherwise, they differ as much as the tolerances of the
+   * solvers allow.
    */
   template <int dim>
   class Simulation
@@ -80,7 +96,8 @@ namespace EBSMPM
       /**
        * Called on all processes after a load step has been accepted, with its
        * number, the load, and how it went. The points are those of the end of
-       * the step.
+       * the step. In a run that is continued, the first call is for the step
+       * after the checkpoint.
        */
       boost::signals2::signal<void(const unsigned int,
                                    const double,
@@ -100,13 +117,45 @@ namespace EBSMPM
     driven_force() const;
 
     /**
-     * Run from the beginning to the end. Raises ExcStepFailure if a step fails
-     * with the smallest increment; what was computed before is on disk then.
+     * Run from the beginning, or from the last checkpoint, to the end. Raises
+     * ExcStepFailure if a step fails with the smallest increment; what was
+     * computed before is on disk then. Raises ExcInput, ExcFile or ExcParameter
+     * before anything is written if there is no checkpoint, or if it cannot be
+     * read or is that of a different simulation.
      */
     void
     run();
 
   private:
+    /** How far the run is. */
+    struct Progress
+    {
+      unsigned int step           = 0;
+      double       load           = 0.;
+      double       last_increment = 0.;
+
+      /** The largest increment to be tried next. */
+      double allowed = std::numeric_limits<double>::max();
+
+      double peak_force = 0.;
+      double last_force = 0.;
+
+      /** Seconds that earlier runs have taken to come here. */
+      double wall_time = 0.;
+
+      /** Write everything to an archive, or read it. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &step &load &last_increment &allowed &peak_force &last_force
+          &wall_time;
+      }
+    };
+
+    /** Make the coarse cells; return how often they are to be refined. */
+    unsigned int
+    make_coarse_grid();
     void
     make_grid();
     void
@@ -114,7 +163,34 @@ namespace EBSMPM
     void
     make_notch();
     void
+    make_step();
+
+    /** Prepare grid, points and step for the beginning, or a checkpoint. */
+    void
+    set_up();
+
+    /**
+     * Solve the next load step, in which the load grows by @p increment, and
+     * accept it. Return whether that was possible; if not, a smaller increment
+     * is to be tried.
+     */
+    bool
+    advance(const double increment);
+
+    /** Whether the force is as small as "Loading/Stop below" says. */
+    bool
+    is_broken() const;
+
+    /** The columns of the history, without the first three. */
+    std::vector<std::string>
+    history_columns() const;
+
+    void
     open_files();
+
+    /** Write to screen and log. */
+    void
+    print(const std::string &text);
     void
     write_header();
     void
@@ -134,6 +210,36 @@ namespace EBSMPM
     /** The largest number of points of a process, over the mean. */
     double
     imbalance() const;
+
+    /** Distribute the grid by the number of points. */
+    void
+    distribute_by_points();
+
+    /** Write a checkpoint, and go on from it. */
+    void
+    write_checkpoint();
+
+    /**
+     * Return to the state of the last checkpoint. Nothing is written, and
+     * nothing in the folder changed.
+     */
+    void
+    read_checkpoint();
+
+    /** What a checkpoint says once, for all processes. */
+    struct Header;
+
+    /** Read it; raise an exception if the checkpoint is not for this run. */
+    void
+    read_header(const std::string &folder, Header &header) const;
+
+    /** Read what this process is to tell the others. */
+    typename StaggeredStep<dim>::Memory
+    read_memory(const std::string &folder, const unsigned int n_files) const;
+
+    /** Continue the files of the run that has written the checkpoint. */
+    void
+    reopen_files();
 
     /** The increment of the table at a load, and the end of its interval. */
     std::pair<double, double>
@@ -160,9 +266,14 @@ namespace EBSMPM
     std::unique_ptr<HistoryWriter> history;
     std::unique_ptr<VTUSeries>     point_series;
     std::unique_ptr<VTUSeries>     grid_series;
-    double                         peak_force     = 0.;
-    double                         last_force     = 0.;
+    const CheckpointFolder         checkpoints;
+    Progress                       progress;
+    std::string                    failure;
     double                         last_imbalance = 1.;
+
+    /** Whether the run that is continued has written fields. */
+    bool had_point_series = false;
+    bool had_grid_series  = false;
 
     ConditionalOStream pcout;
     TimerOutput        timer;

@@ -185,6 +185,36 @@ namespace EBSMPM
     };
 
     /**
+     * What a step knows beyond what is on the points: which functions were
+     * standard (see SplineSpace::reinit()), the fields that are a guess for the
+     * next step, and to what residuals are compared. Fields and functions are
+     * those of one process; those of all together can be handed over to any
+     * other number of processes.
+     */
+    struct Memory
+    {
+      std::vector<FunctionKey<dim>>             standard_u;
+      std::vector<FunctionKey<dim>>             standard_d;
+      typename FieldSnapshot<dim>::Coefficients damage;
+      typename FieldSnapshot<dim>::Coefficients last_increment;
+      double                                    largest_force  = 0.;
+      double                                    first_residual = 0.;
+
+      /** Add what another process knew. */
+      void
+      append(const Memory &other);
+
+      /** Write everything to an archive, or read it. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &standard_u &standard_d &damage &last_increment &largest_force
+          &first_residual;
+      }
+    };
+
+    /**
      * Constructor. All objects must live as long as this one.
      *
      * @param points, @p boundary_points carry the state
@@ -242,6 +272,22 @@ namespace EBSMPM
      */
     void
     repartition(const std::function<void()> &move);
+
+    /**
+     * Return what is not on the points, between two steps. Together with these
+     * it is the whole state. Collective.
+     */
+    Memory
+    memory() const;
+
+    /**
+     * Go on from the points as they are now, and what memory() has returned for
+     * them, now or in another run, and on any number of processes. All else is
+     * forgotten, even factorisations that could be used on: the following steps
+     * depend on nothing else. Collective.
+     */
+    void
+    recall(const Memory &memory);
 
     /** The reactions of all boundaries to the last solution, by boundary id. */
     const std::map<types::boundary_id, Tensor<1, dim>> &

@@ -12,6 +12,8 @@
 
 #include <ebsmpm/base/config.h>
 
+#include <boost/serialization/array.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -86,6 +88,14 @@ namespace EBSMPM
       FunctionKey result = *this;
       result.part        = new_part;
       return result;
+    }
+
+    /** Write the key to an archive, or read it. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive &level &index &part;
     }
   };
 

@@ -133,7 +133,23 @@ namespace EBSMPM
            const double        threshold,
            const double        hysteresis = 0.);
 
-    /** How often reinit() has changed anything. */
+    /** Return the standard functions that this process owns. */
+    std::vector<Key>
+    standard_functions() const;
+
+    /**
+     * Forget everything but which functions were standard, because the next
+     * reinit() is going to ask for that: it numbers all functions anew. For
+     * spaces that continue those of an earlier run, perhaps on another number
+     * of processes, or on a grid that was distributed anew. Collective.
+     *
+     * @param standard_functions what standard_functions() has returned; each
+     *   function must come from one process, no matter from which
+     */
+    void
+    recall(const std::vector<Key> &standard_functions);
+
+    /** How often reinit() has changed anything, or recall() was called. */
     unsigned int
     n_changes() const;
 
