@@ -125,7 +125,9 @@ namespace EBSMPM
   void
   LinearSolver::set_near_null_space(const std::vector<LA::Vector> &vectors)
   {
-    near_null_space = vectors;
+    // Assigned one by one, vectors of the same size would keep their former
+    // distribution.
+    near_null_space = std::vector<LA::Vector>(vectors);
   }
 
 
