@@ -123,7 +123,10 @@ def plot(options, curves):
     styles = ["-", "--", "-.", ":"]
     markers = ["x", "+", "1", "2", "*"]
 
-    figure, axes = plt.subplots(figsize=(5.2, 3.6), constrained_layout=True)
+    # A long legend would cover the curves.
+    is_long = len(curves) + len(options.mark) > 6
+    figure, axes = plt.subplots(figsize=(7.6 if is_long else 5.2, 3.6),
+                                constrained_layout=True)
     for i, (label, (displacements, forces)) in enumerate(curves):
         colour = colours[i % len(colours)]
         peak = max(range(len(forces)), key=forces.__getitem__)
@@ -148,7 +151,10 @@ def plot(options, curves):
     axes.ticklabel_format(axis="x", style="sci", scilimits=(-4, 4),
                           useMathText=True)
     axes.margins(y=0.1)
-    axes.legend(loc="best")
+    if is_long:
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    else:
+        axes.legend(loc="best")
     try:
         figure.savefig(options.output, dpi=250)
     except (OSError, ValueError) as error:
