@@ -41,7 +41,7 @@ namespace EBSMPM
    *
    * @code
    * SystemMatrix matrix;
-   * matrix.reinit(functions, unknowns, n_components, lists);
+   * matrix.reinit(functions, n_components, lists);
    * matrix.begin();
    * for (l = 0; l < n_lists; ++l)
    *   matrix.add(l, local_matrix, stride);
