@@ -18,12 +18,29 @@ namespace EBSMPM
 {
   namespace
   {
-    // Updates of the damage count as parallel if the cosine of their angle is
-    // larger than this. Then they grow by no more than that factor from pass to
-    // pass, up to that change of the damage.
-    constexpr double least_cosine   = 0.9;
+    /**
+     * When the relaxation may grow, and how far.
+     */
+    struct Caution
+    {
+      /** Updates are parallel if the cosine of their angle is larger. */
+      double least_cosine;
+
+      /** Change of the damage in a pass up to which the relaxation may grow. */
+      double largest_change;
+    };
+
+    /**
+     * What is overshot cannot be taken back, because damage does not heal. Only
+     * in steps that take many passes, where the crack runs through the body
+     * without stopping, there is less to lose.
+     */
+    constexpr Caution      at_first      = {0.9, 0.15};
+    constexpr Caution      in_long_steps = {0.5, 0.5};
+    constexpr unsigned int many_passes   = 20;
+
+    /** Factor by which the relaxation may grow from pass to pass. */
     constexpr double largest_growth = 3.;
-    constexpr double largest_change = 0.15;
   } // namespace
 
 
@@ -56,7 +73,8 @@ namespace EBSMPM
     d_field.zero_out_ghost_values();
     solution.zero_out_ghost_values();
     solution -= d_field;
-    relaxation = next_relaxation(relaxation, solution, last_update);
+    relaxation =
+      next_relaxation(relaxation, report.passes, solution, last_update);
     last_update.reinit(solution);
     last_update = solution;
     d_field.add(relaxation, solution);
@@ -80,14 +98,16 @@ namespace EBSMPM
   template <int dim>
   double
   StaggeredStep<dim>::next_relaxation(const double           relaxation,
+                                      const unsigned int     pass,
                                       const LA::FieldVector &update,
                                       const LA::FieldVector &last_update) const
   {
     if (last_update.size() == 0)
       return 1.;
-    const double last_norm = last_update.l2_norm();
-    const double product   = update * last_update;
-    if (!(product > least_cosine * update.l2_norm() * last_norm))
+    const Caution caution   = (pass > many_passes ? in_long_steps : at_first);
+    const double  last_norm = last_update.l2_norm();
+    const double  product   = update * last_update;
+    if (!(product > caution.least_cosine * update.l2_norm() * last_norm))
       return 1.;
 
     // A single mode is left, of which the last step has left this part. If
@@ -97,7 +117,8 @@ namespace EBSMPM
     if (ratio < 1.)
       result = std::min(result, relaxation / (1. - ratio));
     return std::max(1.,
-                    std::min(result, largest_change / update.linfty_norm()));
+                    std::min(result,
+                             caution.largest_change / update.linfty_norm()));
   }
 
 
@@ -108,10 +129,12 @@ namespace EBSMPM
   StaggeredStep<3>::solve_damage(double &, LA::FieldVector &, Report &);
   template double
   StaggeredStep<2>::next_relaxation(const double,
+                                    const unsigned int,
                                     const LA::FieldVector &,
                                     const LA::FieldVector &) const;
   template double
   StaggeredStep<3>::next_relaxation(const double,
+                                    const unsigned int,
                                     const LA::FieldVector &,
                                     const LA::FieldVector &) const;
 } // namespace EBSMPM

@@ -14,6 +14,7 @@
 
 #include <ebsmpm/materials/energy_split.h>
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
