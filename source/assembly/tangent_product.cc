@@ -51,7 +51,7 @@ namespace EBSMPM
                                      x_stride,
                                      cX.data(),
                                      local.tangent(),
-                                     local.has_tangent(),
+                                     local.begin_tangent(),
                                      dim * dim);
   }
 

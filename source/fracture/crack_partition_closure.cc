@@ -155,6 +155,9 @@ namespace EBSMPM
       }
     std::sort(bare.begin(), bare.end());
     bare.erase(std::unique(bare.begin(), bare.end()), bare.end());
+    if (Utilities::MPI::max(bare.empty() ? 0U : 1U,
+                            spline_space->communicator()) == 0)
+      return;
 
     const DataTable    around = surroundings(table,
                                           bare,

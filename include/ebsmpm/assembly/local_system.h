@@ -21,6 +21,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace EBSMPM
@@ -168,11 +169,12 @@ namespace EBSMPM
     tangent();
 
     /**
-     * Whether the tangent has to be added to. Otherwise, it is zero, but it
-     * does not say so: it is to be overwritten. The next answer is yes.
+     * Begin to write the tangent. Return whether there is something in it, to
+     * add to; otherwise it is zero, but does not say so, and is to be
+     * overwritten.
      */
     bool
-    has_tangent();
+    begin_tangent();
 
     /** Distance between two rows of the tangent. */
     unsigned int
@@ -322,11 +324,9 @@ namespace EBSMPM
 
   template <int dim>
   inline bool
-  LocalSystem<dim>::has_tangent()
+  LocalSystem<dim>::begin_tangent()
   {
-    const bool answer = tangent_begun;
-    tangent_begun     = true;
-    return answer;
+    return std::exchange(tangent_begun, true);
   }
 
 

@@ -1,0 +1,302 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+// The part of DisplacementSystem that evaluates the field at the points.
+
+#include <ebsmpm/assembly/displacement_system.h>
+#include <ebsmpm/assembly/field_evaluation.h>
+#include <ebsmpm/assembly/point_values.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace EBSMPM
+{
+  template <int dim>
+  void
+  DisplacementSystem<dim>::hold_branches(const MaterialState<dim> &state,
+                                         const BoundaryState<dim> &boundary,
+                                         const LA::FieldVector    &increment)
+  {
+    increment.update_ghost_values();
+    branches.resize(points->n_points());
+    evaluate_material(state,
+                      increment,
+                      [&](const unsigned int q,
+                          const Tensor<1, dim> &,
+                          const Tensor<2, dim> &F) {
+                        branches[q] = material.branch(F);
+                      });
+    boundary_branches.resize(boundary_points->n_points());
+    evaluate_boundary(boundary,
+                      increment,
+                      [&](const unsigned int q,
+                          const Tensor<1, dim> &,
+                          const Tensor<2, dim> &F) {
+                        boundary_branches[q] = material.branch(F);
+                      });
+  }
+
+
+
+  template <int dim>
+  void
+  DisplacementSystem<dim>::driving_energy(
+    const Update        &update,
+    std::vector<double> &psi_degraded) const
+  {
+    psi_degraded.resize(update.F.size());
+    double psi_intact;
+    for (unsigned int q = 0; q < update.F.size(); ++q)
+      material.energies(update.F[q], psi_degraded[q], psi_intact);
+  }
+
+
+
+  template <int dim>
+  typename DisplacementSystem<dim>::Energies
+  DisplacementSystem<dim>::energies(const MaterialState<dim> &state,
+                                    const BoundaryState<dim> &boundary,
+                                    const LA::FieldVector    &increment) const
+  {
+    increment.update_ghost_values();
+    Energies result;
+    evaluate_material(state,
+                      increment,
+                      [&](const unsigned int q,
+                          const Tensor<1, dim> &,
+                          const Tensor<2, dim> &F) {
+                        const double g = degradation.value(state.damage[q]);
+                        double       psi_degraded, psi_intact;
+                        material.energies(F, psi_degraded, psi_intact);
+                        result.elastic +=
+                          state.volume[q] * (g * psi_degraded + psi_intact);
+                      });
+    evaluate_boundary(boundary,
+                      increment,
+                      [&](const unsigned int    q,
+                          const Tensor<1, dim> &value,
+                          const Tensor<2, dim> &F) {
+                        const double g = degradation.value(boundary.damage[q]);
+                        Tensor<2, dim> P;
+                        material.stress(F, g, P);
+                        const auto w = mismatch(boundary, q, value);
+                        result.penalty +=
+                          boundary.area[q] * (0.5 * beta * w.norm_square() -
+                                              w * (P * boundary.normal[q]));
+                      });
+    const MPI_Comm &comm = spline_space->communicator();
+    result.elastic       = Utilities::MPI::sum(result.elastic, comm);
+    result.penalty       = Utilities::MPI::sum(result.penalty, comm);
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::map<types::boundary_id, Tensor<1, dim>>
+  DisplacementSystem<dim>::reactions(
+    const BoundaryState<dim>              &boundary,
+    const LA::FieldVector                 &increment,
+    const std::vector<types::boundary_id> &ids) const
+  {
+    increment.update_ghost_values();
+    std::map<types::boundary_id, Tensor<1, dim>> result;
+    for (const auto id : ids)
+      result[id] = Tensor<1, dim>();
+    evaluate_boundary(
+      boundary,
+      increment,
+      [&](const unsigned int    q,
+          const Tensor<1, dim> &value,
+          const Tensor<2, dim> &F) {
+        const double   g = degradation.value(boundary.damage[q]);
+        Tensor<2, dim> P;
+        material.stress(F, g, P, branch_of(boundary_branches, q));
+        const auto w = mismatch(boundary, q, value);
+        const auto flux =
+          boundary.area[q] * (P * boundary.normal[q] - beta * w);
+        auto &sum = result.at(boundary.boundary_id[q]);
+        for (unsigned int i = 0; i < dim; ++i)
+          if (boundary.constrained[q][i])
+            sum[i] += flux[i];
+      });
+    for (auto &entry : result)
+      entry.second =
+        Utilities::MPI::sum(entry.second, spline_space->communicator());
+    return result;
+  }
+
+
+
+  template <int dim>
+  typename DisplacementSystem<dim>::Update
+  DisplacementSystem<dim>::update_points(const MaterialState<dim> &state,
+                                         const LA::FieldVector &increment) const
+  {
+    increment.update_ghost_values();
+    Update update;
+    update.displacement_increment.resize(points->n_points());
+    update.F.resize(points->n_points());
+    evaluate_material(state,
+                      increment,
+                      [&](const unsigned int    q,
+                          const Tensor<1, dim> &value,
+                          const Tensor<2, dim> &F) {
+                        update.displacement_increment[q] = value;
+                        update.F[q]                      = F;
+                      });
+    return update;
+  }
+
+
+
+  template <int dim>
+  typename DisplacementSystem<dim>::Update
+  DisplacementSystem<dim>::update_points(const BoundaryState<dim> &boundary,
+                                         const LA::FieldVector &increment) const
+  {
+    increment.update_ghost_values();
+    Update update;
+    update.displacement_increment.resize(boundary_points->n_points());
+    update.F.resize(boundary_points->n_points());
+    evaluate_boundary(boundary,
+                      increment,
+                      [&](const unsigned int    q,
+                          const Tensor<1, dim> &value,
+                          const Tensor<2, dim> &F) {
+                        update.displacement_increment[q] = value;
+                        update.F[q]                      = F;
+                      });
+    return update;
+  }
+
+
+
+  template <int dim>
+  void
+  DisplacementSystem<dim>::boundary_driving(const BoundaryState<dim> &boundary,
+                                            const LA::FieldVector    &increment,
+                                            std::vector<double> &driving) const
+  {
+    increment.update_ghost_values();
+    driving.resize(boundary_points->n_points());
+    evaluate_boundary(boundary,
+                      increment,
+                      [&](const unsigned int    q,
+                          const Tensor<1, dim> &value,
+                          const Tensor<2, dim> &F) {
+                        const Tensor<2, dim> P = material.degraded_stress(F);
+                        const auto           w = mismatch(boundary, q, value);
+                        driving[q]             = w * (P * boundary.normal[q]);
+                      });
+  }
+
+
+
+  template <int dim>
+  template <typename Visitor>
+  void
+  DisplacementSystem<dim>::evaluate_material(const MaterialState<dim> &state,
+                                             const LA::FieldVector &increment,
+                                             const Visitor         &visit) const
+  {
+    evaluate(*points, material_groups, state.F, increment, visit);
+  }
+
+
+
+  template <int dim>
+  template <typename Visitor>
+  void
+  DisplacementSystem<dim>::evaluate_boundary(const BoundaryState<dim> &boundary,
+                                             const LA::FieldVector &increment,
+                                             const Visitor         &visit) const
+  {
+    evaluate(*boundary_points, boundary_groups, boundary.F, increment, visit);
+  }
+
+
+
+  template <int dim>
+  template <typename Visitor>
+  void
+  DisplacementSystem<dim>::evaluate(const CellPoints<dim>             &at,
+                                    const PointGroups<dim>            &groups,
+                                    const std::vector<Tensor<2, dim>> &F_n,
+                                    const LA::FieldVector &increment,
+                                    const Visitor         &visit) const
+  {
+    evaluate_field<dim>(at,
+                        groups,
+                        spline_space->lattice(),
+                        spline_space->degree(),
+                        increment,
+                        [&](const unsigned int                     q,
+                            const Tensor<1, dim>                  &value,
+                            const std::array<Tensor<1, dim>, dim> &gradient) {
+                          visit(q, value, deformation<dim>(gradient, F_n[q]));
+                        });
+  }
+
+
+
+  template void
+  DisplacementSystem<2>::hold_branches(const MaterialState<2> &,
+                                       const BoundaryState<2> &,
+                                       const LA::FieldVector &);
+  template void
+  DisplacementSystem<2>::driving_energy(const Update &,
+                                        std::vector<double> &) const;
+  template typename DisplacementSystem<2>::Energies
+  DisplacementSystem<2>::energies(const MaterialState<2> &,
+                                  const BoundaryState<2> &,
+                                  const LA::FieldVector &) const;
+  template std::map<types::boundary_id, Tensor<1, 2>>
+  DisplacementSystem<2>::reactions(
+    const BoundaryState<2> &,
+    const LA::FieldVector &,
+    const std::vector<types::boundary_id> &) const;
+  template typename DisplacementSystem<2>::Update
+  DisplacementSystem<2>::update_points(const MaterialState<2> &,
+                                       const LA::FieldVector &) const;
+  template typename DisplacementSystem<2>::Update
+  DisplacementSystem<2>::update_points(const BoundaryState<2> &,
+                                       const LA::FieldVector &) const;
+  template void
+  DisplacementSystem<2>::boundary_driving(const BoundaryState<2> &,
+                                          const LA::FieldVector &,
+                                          std::vector<double> &) const;
+
+  template void
+  DisplacementSystem<3>::hold_branches(const MaterialState<3> &,
+                                       const BoundaryState<3> &,
+                                       const LA::FieldVector &);
+  template void
+  DisplacementSystem<3>::driving_energy(const Update &,
+                                        std::vector<double> &) const;
+  template typename DisplacementSystem<3>::Energies
+  DisplacementSystem<3>::energies(const MaterialState<3> &,
+                                  const BoundaryState<3> &,
+                                  const LA::FieldVector &) const;
+  template std::map<types::boundary_id, Tensor<1, 3>>
+  DisplacementSystem<3>::reactions(
+    const BoundaryState<3> &,
+    const LA::FieldVector &,
+    const std::vector<types::boundary_id> &) const;
+  template typename DisplacementSystem<3>::Update
+  DisplacementSystem<3>::update_points(const MaterialState<3> &,
+                                       const LA::FieldVector &) const;
+  template typename DisplacementSystem<3>::Update
+  DisplacementSystem<3>::update_points(const BoundaryState<3> &,
+                                       const LA::FieldVector &) const;
+  template void
+  DisplacementSystem<3>::boundary_driving(const BoundaryState<3> &,
+                                          const LA::FieldVector &,
+                                          std::vector<double> &) const;
+} // namespace EBSMPM
