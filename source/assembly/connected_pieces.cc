@@ -38,21 +38,27 @@ namespace EBSMPM
 
 
 
-      /** Return the number of eigenvalues of a matrix that are zero. */
-      unsigned int
-      null_space_dimension(const FullMatrix<double> &matrix)
+      /**
+       * Return an orthonormal basis of the null space of a symmetric matrix, in
+       * columns.
+       */
+      FullMatrix<double>
+      null_space(const FullMatrix<double> &matrix)
       {
-        const double trace = matrix.trace();
+        FullMatrix<double> basis;
+        const double       trace = matrix.trace();
         if (trace == 0.)
-          return matrix.m();
+          {
+            basis = IdentityMatrix(matrix.m());
+            return basis;
+          }
         LAPACKFullMatrix<double> scaled(matrix.m());
         scaled = matrix;
         scaled /= trace;
-        Vector<double>     eigenvalues;
-        FullMatrix<double> eigenvectors;
+        Vector<double> eigenvalues;
         scaled.compute_eigenvalues_symmetric(
-          -1., free_tolerance, 1e-14, eigenvalues, eigenvectors);
-        return eigenvalues.size();
+          -1., free_tolerance, 1e-14, eigenvalues, basis);
+        return basis;
       }
     } // namespace ConnectedPiecesImplementation
   }   // namespace internal
@@ -107,7 +113,7 @@ namespace EBSMPM
           }
       }
     Utilities::MPI::sum(sums, communicator, sums);
-    std::vector<Moments> moments(merged.size());
+    moments.resize(merged.size());
     for (unsigned int i = 0; i < merged.size(); ++i)
       {
         const double *sum = sums.data() + i * (dim + 2);
@@ -126,20 +132,13 @@ namespace EBSMPM
     piece_list.resize(merged.size());
     for (unsigned int i = 0; i < merged.size(); ++i)
       piece_list[i].volume = moments[i].volume;
-    count_free_motions(boundary_points,
-                       boundary,
-                       boundary_groups,
-                       pieces_of_groups(boundary_groups, labels, merged),
-                       moments,
-                       communicator);
-
+    find_free_motions(boundary_points,
+                      boundary,
+                      boundary_groups,
+                      pieces_of_groups(boundary_groups, labels, merged),
+                      communicator);
     if (n_free() > 0)
-      {
-        group_is_free.resize(groups.groups().size());
-        for (unsigned int g = 0; g < group_is_free.size(); ++g)
-          group_is_free[g] =
-            piece_list[piece_of_group[g]].n_free_motions > 0 ? 1 : 0;
-      }
+      piece_numbers = piece_of_group;
     std::stable_sort(piece_list.begin(),
                      piece_list.end(),
                      [](const Piece &a, const Piece &b) {
@@ -227,12 +226,11 @@ namespace EBSMPM
 
   template <int dim>
   void
-  ConnectedPieces<dim>::count_free_motions(
+  ConnectedPieces<dim>::find_free_motions(
     const CellPoints<dim>           &boundary_points,
     const BoundaryState<dim>        &boundary,
     const PointGroups<dim>          &boundary_groups,
     const std::vector<unsigned int> &piece_of_group,
-    const std::vector<Moments>      &moments,
     const MPI_Comm                  &communicator)
   {
     constexpr unsigned int n_motions = RigidMotions::n<dim>;
@@ -259,8 +257,11 @@ namespace EBSMPM
       }
     Utilities::MPI::sum(sums, communicator, sums);
     for (unsigned int i = 0; i < piece_list.size(); ++i)
-      piece_list[i].n_free_motions = null_space_dimension(
-        FullMatrix<double>(n_motions, n_motions, sums.data() + i * size));
+      {
+        moments[i].free_motions = null_space(
+          FullMatrix<double>(n_motions, n_motions, sums.data() + i * size));
+        piece_list[i].n_free_motions = moments[i].free_motions.n();
+      }
   }
 
 
@@ -270,7 +271,8 @@ namespace EBSMPM
   ConnectedPieces<dim>::clear()
   {
     piece_list.clear();
-    group_is_free.clear();
+    moments.clear();
+    piece_numbers.clear();
   }
 
 
@@ -301,7 +303,29 @@ namespace EBSMPM
   bool
   ConnectedPieces<dim>::is_free(const unsigned int g) const
   {
-    return !group_is_free.empty() && group_is_free[g] != 0;
+    return !piece_numbers.empty() &&
+           moments[piece_numbers[g]].free_motions.n() > 0;
+  }
+
+
+
+  template <int dim>
+  SymmetricTensor<2, dim>
+  ConnectedPieces<dim>::free_directions(const unsigned int g,
+                                        const Point<dim>  &x) const
+  {
+    const Moments &piece = moments[piece_numbers[g]];
+    const auto     motions =
+      RigidMotions::at<dim>((x - piece.centre) / piece.radius);
+    SymmetricTensor<2, dim> result;
+    for (unsigned int i = 0; i < piece.free_motions.n(); ++i)
+      {
+        Tensor<1, dim> motion;
+        for (unsigned int m = 0; m < motions.size(); ++m)
+          motion += piece.free_motions(m, i) * motions[m];
+        result += symmetrize(outer_product(motion, motion));
+      }
+    return result;
   }
 
 

@@ -264,7 +264,7 @@ namespace EBSMPM
         local.gather(increment);
         elastic_terms.compute(task, state, branches, local);
         if (connected_pieces.is_free(g))
-          add_mass(task, state);
+          add_mass(task, state, g);
         if (partners[g] != numbers::invalid_unsigned_int)
           {
             local.go_on(*boundary_points,
@@ -290,7 +290,8 @@ namespace EBSMPM
   template <int dim>
   void
   DisplacementSystem<dim>::add_mass(const AssemblyTask        task,
-                                    const MaterialState<dim> &state) const
+                                    const MaterialState<dim> &state,
+                                    const unsigned int        g) const
   {
     const unsigned int n       = local.n_functions();
     const double       density = 1e-6 * material.nitsche_stiffness() /
@@ -299,16 +300,21 @@ namespace EBSMPM
     for (unsigned int k = 0; k < local.n_points(); ++k)
       {
         local.values(k, B.data());
-        const Tensor<1, dim> increment = local.value(B.data());
-        const double         mass      = density * state.volume[local.point(k)];
+        const unsigned int            q = local.point(k);
+        const SymmetricTensor<2, dim> mass =
+          density * state.volume[q] *
+          connected_pieces.free_directions(g, points->location(q));
+        const Tensor<1, dim> force = mass * local.value(B.data());
         for (unsigned int i = 0; i < n; ++i)
-          local.residual[i] += mass * B[i] * increment;
+          local.residual[i] += B[i] * force;
         if (task != AssemblyTask::residual)
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int j = i; j < n; ++j)
               for (unsigned int a = 0; a < dim; ++a)
-                local.tangent()[i * local.tangent_stride() +
-                                (j * dim + a) * dim + a] += mass * B[i] * B[j];
+                for (unsigned int b = 0; b < dim; ++b)
+                  local.tangent()[i * local.tangent_stride() +
+                                  (j * dim + a) * dim + b] +=
+                    B[i] * B[j] * mass[a][b];
       }
   }
 

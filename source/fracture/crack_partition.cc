@@ -50,6 +50,12 @@ namespace EBSMPM
        */
       constexpr double most_settled = 0.1;
       constexpr double least_filled = 0.8;
+
+      /**
+       * The length of the mean of side vectors above which there is more
+       * material on one side beyond doubt.
+       */
+      constexpr double clear_majority = 0.5;
     } // namespace CrackPartitionImplementation
   }   // namespace internal
 
@@ -97,7 +103,12 @@ namespace EBSMPM
         find_sides(points, volumes, labels);
         find_separable(points, labels);
         if (data.grow)
-          close_gaps();
+          {
+            close_gaps();
+            // In 2-D, closing gaps to free boundaries leaves nothing.
+            if (dim == 3)
+              cut_remainders(points, labels);
+          }
         add_bare_functions(boundary_points);
         add_shared_functions(*spline_space, table);
       }
@@ -178,9 +189,9 @@ namespace EBSMPM
       for (unsigned int d = 0; d < dim; ++d)
         {
           a.vector[d] += b.vector[d];
-          a.axis[d] += b.axis[d];
           a.moment[d] += b.moment[d];
         }
+      a.dyads += b.dyads;
       return a;
     };
 
@@ -192,9 +203,10 @@ namespace EBSMPM
         for (unsigned int q = cell.begin; q < cell.end; ++q)
           {
             kernel.values(points.unit_point(q), B.data());
-            const Tensor<1, dim> &side = labels.side[q];
-            const Tensor<1, dim>  axis = canonical(side);
-            const Point<dim>     &x    = points.location(q);
+            const Tensor<1, dim>         &side = labels.side[q];
+            const Point<dim>             &x    = points.location(q);
+            const SymmetricTensor<2, dim> dyad =
+              symmetrize(outer_product(side, side));
             for (unsigned int i = 0; i < n; ++i)
               {
                 const double w = B[i] * volumes[q] * side.norm();
@@ -205,8 +217,8 @@ namespace EBSMPM
                   {
                     local[i].moment[d] += B[i] * volumes[q] * x[d];
                     local[i].vector[d] += w * side[d];
-                    local[i].axis[d] += w * axis[d];
                   }
+                local[i].dyads += w * dyad;
               }
           }
         for (unsigned int i = 0; i < n; ++i)
@@ -237,13 +249,18 @@ namespace EBSMPM
           sum.settled_volume < most_settled * sum.volume &&
           sum.volume > least_filled * Utilities::fixed_power<dim>(h);
 
-        // As much material on either side: go to the fixed one.
-        // (Points next to a slit have sides before there is a ridge.)
-        const Tensor<1, dim> axis = to_tensor(sum.axis);
-        const Tensor<1, dim> side =
-          mean.norm() > tie * sum.volume ? mean / mean.norm() :
-          axis.norm() > tie * sum.volume ? axis / axis.norm() :
-                                           to_tensor(shape.normal);
+        // About as much material on either side: where the crack bends, what is
+        // left of the mean need not point across it. If it is as much, go to
+        // the fixed side. (Points next to a slit have sides before there is a
+        // ridge.)
+        Tensor<1, dim> side = mean / sum.volume;
+        if (side.norm() < clear_majority)
+          {
+            const Tensor<1, dim> axis =
+              canonical(eigenvectors(sum.dyads)[0].second);
+            side = (side * axis < -tie ? -axis : axis);
+          }
+        side /= side.norm();
         function.side = to_array(side);
       }
   }

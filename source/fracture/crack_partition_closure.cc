@@ -135,6 +135,119 @@ namespace EBSMPM
 
   template <int dim>
   void
+  CrackPartition<dim>::cut_remainders(const CellPoints<dim>  &points,
+                                      const CrackLabels<dim> &labels)
+  {
+    // What there is on the far side of a function: material that is parted from
+    // the near side by separable functions, how far away along the side vector
+    // that begins, and other material.
+    struct FarSide
+    {
+      double                  distance  = std::numeric_limits<double>::max();
+      bool                    has_whole = false;
+      std::array<double, dim> side{};
+      unsigned int            owner = 0;
+    };
+    const auto combine = [](FarSide a, const FarSide &b) {
+      a.distance  = std::min(a.distance, b.distance);
+      a.has_whole = a.has_whole || b.has_whole;
+      return a;
+    };
+    const auto distance =
+      [&](const Key &key, const Tensor<1, dim> &side, const Point<dim> &x) {
+        return (x - spline_space->lattice().greville_point(
+                      key, spline_space->degree())) *
+               side;
+      };
+    const FunctionDirectory<dim, FarSide> directory(
+      spline_space->communicator());
+    const unsigned int n = spline_space->n_functions_per_cell();
+
+    typename FunctionDirectory<dim, FarSide>::Table far_sides;
+    for (const auto &entry : table)
+      if (!entry.second.separable && !entry.second.at_junction &&
+          to_tensor(entry.second.side).norm_square() > 0.)
+        {
+          FarSide &far_side = far_sides[entry.first];
+          far_side.side     = entry.second.side;
+          far_side.owner    = entry.second.owner;
+        }
+
+    std::vector<std::pair<const Key, FarSide> *> whole;
+    for (const unsigned int c : active_cells)
+      {
+        const auto &cell             = points.cells()[c];
+        bool        sees_a_separable = false;
+        whole.clear();
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const auto key =
+              spline_space->cell_function(cell.index, cell.level, i);
+            const auto function = table.find(key);
+            const auto found    = far_sides.find(key);
+            if (function != table.end() && function->second.separable)
+              sees_a_separable = true;
+            else if (found != far_sides.end())
+              whole.push_back(&*found);
+          }
+        for (auto *const function : whole)
+          {
+            FarSide             &far_side = function->second;
+            const Tensor<1, dim> m        = to_tensor(far_side.side);
+            for (unsigned int q = cell.begin; q < cell.end; ++q)
+              if (sees_a_separable && labels.side[q] * m < 0.)
+                far_side.distance =
+                  std::min(far_side.distance,
+                           distance(function->first, m, points.location(q)));
+              else if (!(labels.side[q] * m > 0.))
+                far_side.has_whole = true;
+          }
+      }
+    far_sides = directory.reduce(far_sides, combine);
+
+    // Few are left. For them, cells that take no part count, too: nobody has
+    // told on which side their points are, but they are not on the near one if
+    // they are as far away as what has been cut off.
+    for (auto entry = far_sides.begin(); entry != far_sides.end();)
+      if (entry->second.distance < std::numeric_limits<double>::max() &&
+          !entry->second.has_whole)
+        ++entry;
+      else
+        entry = far_sides.erase(entry);
+    if (Utilities::MPI::max(far_sides.empty() ? 0U : 1U,
+                            spline_space->communicator()) == 0)
+      return;
+    add_shared_functions(*spline_space, far_sides);
+    auto active = active_cells.begin();
+    for (unsigned int c = 0; c < points.cells().size(); ++c)
+      if (active != active_cells.end() && *active == c)
+        ++active;
+      else
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const auto &cell  = points.cells()[c];
+            const auto  found = far_sides.find(
+              spline_space->cell_function(cell.index, cell.level, i));
+            if (found == far_sides.end())
+              continue;
+            FarSide             &far_side = found->second;
+            const Tensor<1, dim> m        = to_tensor(far_side.side);
+            const double         h =
+              spline_space->lattice().cell_extents(cell.level)[0];
+            for (unsigned int q = cell.begin; q < cell.end; ++q)
+              if (distance(found->first, m, points.location(q)) >
+                  far_side.distance - tie * h)
+                far_side.has_whole = true;
+          }
+    for (const auto &entry : directory.reduce(far_sides, combine))
+      if (!entry.second.has_whole && table.find(entry.first) != table.end())
+        table.at(entry.first).separable = true;
+  }
+
+
+
+  template <int dim>
+  void
   CrackPartition<dim>::add_bare_functions(
     const CellPoints<dim> &boundary_points)
   {
@@ -217,6 +330,13 @@ namespace EBSMPM
   CrackPartition<2>::close_gaps();
   template void
   CrackPartition<3>::close_gaps();
+
+  template void
+  CrackPartition<2>::cut_remainders(const CellPoints<2> &,
+                                    const CrackLabels<2> &);
+  template void
+  CrackPartition<3>::cut_remainders(const CellPoints<3> &,
+                                    const CrackLabels<3> &);
 
   template void
   CrackPartition<2>::add_bare_functions(const CellPoints<2> &);

@@ -21,6 +21,9 @@
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
 
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -33,6 +36,13 @@ namespace EBSMPM
     // The residual, relative to the right hand side, at which a solution is
     // accepted although round-off prevents a smaller one.
     constexpr double acceptable_residual = 1e-5;
+
+    // The change of a diagonal entry, relative to it, that makes a row worth
+    // correcting; the part of the rows of a process that may be corrected, and
+    // their number, as this has to be quick.
+    constexpr double       least_change       = 0.1;
+    constexpr double       most_changed       = 0.25;
+    constexpr unsigned int largest_correction = 500;
 
 
 
@@ -82,6 +92,39 @@ namespace EBSMPM
       const bool        must_be_definite;
       const Observation if_indefinite;
     };
+
+
+
+    /** A preconditioner together with its correction. */
+    template <typename Preconditioner>
+    class CorrectedPreconditioner
+    {
+    public:
+      CorrectedPreconditioner(const Preconditioner  &P,
+                              const LocalCorrection &correction)
+        : P(P)
+        , correction(correction)
+      {}
+
+      void
+      vmult(LA::Vector &dst, const LA::Vector &src) const
+      {
+        correction.vmult(P, dst, src);
+      }
+
+    private:
+      const Preconditioner  &P;
+      const LocalCorrection &correction;
+    };
+
+
+
+    void
+    copy_diagonal(const LA::SparseMatrix &A, LA::Vector &diagonal)
+    {
+      Epetra_Vector copy(View, A.trilinos_matrix().RowMap(), diagonal.begin());
+      A.trilinos_matrix().ExtractDiagonalCopy(copy);
+    }
   } // namespace
 
 
@@ -210,6 +253,9 @@ namespace EBSMPM
       }
 
     preconditioner->initialize(A);
+    correction.clear();
+    diagonal.reinit(A.locally_owned_range_indices(), A.get_mpi_communicator());
+    copy_diagonal(A, diagonal);
     is_indefinite  = preconditioner->is_indefinite();
     rows           = A.locally_owned_range_indices();
     is_initialized = true;
@@ -236,11 +282,36 @@ namespace EBSMPM
       fits = fits && former_row_numbers.size() == A.m() &&
              former_row_numbers.locally_owned_size() == A.local_size();
     else
-      fits = fits && rows.size() == A.m() &&
-             rows == A.locally_owned_range_indices();
+      fits =
+        fits && rows.size() == A.m() && rows == A.locally_owned_range_indices();
     return dealii::Utilities::MPI::min(fits ? 1 : 0,
                                        A.get_mpi_communicator()) == 1 &&
            choose_method(A) == method;
+  }
+
+
+
+  void
+  LinearSolver::correct(const LA::SparseMatrix &A)
+  {
+    correction.clear();
+    LA::Vector today(A.locally_owned_range_indices(), A.get_mpi_communicator());
+    LA::Vector former(today);
+    copy_diagonal(A, today);
+    if (renumbered_preconditioner)
+      renumbered_preconditioner->transfer(diagonal, former);
+    else
+      former = diagonal;
+
+    std::vector<int> changed_rows;
+    for (unsigned int i = 0; i < today.locally_owned_size(); ++i)
+      if (std::abs(today.begin()[i] - former.begin()[i]) >
+          least_change * std::abs(today.begin()[i]))
+        changed_rows.push_back(i);
+    if (changed_rows.size() > most_changed * A.local_size() ||
+        changed_rows.size() > largest_correction)
+      changed_rows.clear();
+    correction.reinit(A, changed_rows);
   }
 
 
@@ -260,8 +331,10 @@ namespace EBSMPM
     SolverControl control(max_iterations, tolerance, false, false);
     Outcome       outcome = Outcome::converged;
 
-    const auto solve_with = [&](const auto &P) {
-      const ObservedOperator<std::decay_t<decltype(P)>> inverse(
+    const auto solve_with = [&](const auto &stale) {
+      using Corrected = CorrectedPreconditioner<std::decay_t<decltype(stale)>>;
+      const Corrected                   P(stale, correction);
+      const ObservedOperator<Corrected> inverse(
         P, !use_gmres, Observation::indefinite_preconditioner);
       if (use_gmres)
         {
@@ -351,6 +424,8 @@ namespace EBSMPM
                                                        rows,
                                                        former_row_numbers,
                                                        A);
+        if (method != Method::cg_ic && !is_indefinite)
+          correct(A);
         const Outcome outcome =
           iterate(A,
                   x,

@@ -56,8 +56,7 @@ namespace EBSMPM
 
 
   void
-  RenumberedPreconditioner::vmult(LA::Vector       &dst,
-                                  const LA::Vector &src) const
+  RenumberedPreconditioner::vmult(LA::Vector &dst, const LA::Vector &src) const
   {
     const double *const src_values = src.begin();
     double *const       dst_values = dst.begin();
@@ -70,10 +69,21 @@ namespace EBSMPM
 
     preconditioner.vmult(former_dst, former_src);
 
-    known->Import(former_dst.trilinos_vector(), *to_former, Insert);
-    for (std::size_t k = 0; k < known_rows.size(); ++k)
-      dst_values[known_rows[k]] = (*known)[k];
+    transfer(former_dst, dst);
     for (std::size_t k = 0; k < new_rows.size(); ++k)
       dst_values[new_rows[k]] = inverse_diagonal[k] * src_values[new_rows[k]];
+  }
+
+
+
+  void
+  RenumberedPreconditioner::transfer(const LA::Vector &former,
+                                     LA::Vector       &today) const
+  {
+    known->Import(former.trilinos_vector(), *to_former, Insert);
+    today                = 0.;
+    double *const values = today.begin();
+    for (std::size_t k = 0; k < known_rows.size(); ++k)
+      values[known_rows[k]] = (*known)[k];
   }
 } // namespace EBSMPM

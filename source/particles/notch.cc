@@ -93,6 +93,8 @@ namespace EBSMPM
         const Tensor<1, dim>              n = slit.normal / slit.normal.norm();
         const std::vector<Tensor<1, dim>> directions = directions_in_plane(n);
         const double                      tie        = 1e-10 * slit.label_width;
+        const double                      reach =
+          slit.label_reach > 0. ? slit.label_reach : slit.label_width;
 
         for (auto &particle : points.handler())
           {
@@ -106,10 +108,8 @@ namespace EBSMPM
             const Point<dim> foot    = x - distance * n;
             const bool       is_open = slit.open_region->contains(foot);
             bool             is_near = is_open;
-            for (const double radius : {0.25 * slit.label_width,
-                                        0.5 * slit.label_width,
-                                        0.75 * slit.label_width,
-                                        slit.label_width})
+            for (const double radius :
+                 {0.25 * reach, 0.5 * reach, 0.75 * reach, reach})
               for (const Tensor<1, dim> &direction : directions)
                 is_near = is_near ||
                           slit.open_region->contains(foot + radius * direction);

@@ -199,8 +199,8 @@ namespace EBSMPM
 
         // As accurate as the nonlinear convergence can make use of.
         double eta = (report.iterations == 0) ?
-                       1e-5 :
-                       std::min(1e-3, 0.9 * ratio * ratio);
+                       problem.first_tolerance :
+                       std::min(0.1, 0.9 * ratio * ratio);
         eta        = std::max({eta, 0.1 * target / norm, 1e-12});
 
         update.zero_out_ghost_values();

@@ -124,8 +124,11 @@ namespace EBSMPM
                   "The shape in which the slit is open, or the damaged band.");
     add_parameter("Label width",
                   label_width,
-                  "How far from the slit, and ahead of its tip, points know "
-                  "their side; a formula.");
+                  "How far from the slit points know their side; a formula.");
+    add_parameter("Label reach",
+                  label_reach,
+                  "How far ahead of its tip they do, for ever; a formula. Zero "
+                  "for as far as from the slit.");
     add_parameter("Damage width",
                   damage_width,
                   "How far from the slit points make functions separable; a "

@@ -216,6 +216,7 @@ namespace EBSMPM
     length_scale();
     number("Body/Boundary point spacing", body.spacing);
     number("Notch/Label width", notch.label_width);
+    number("Notch/Label reach", notch.label_reach);
     number("Notch/Damage width", notch.damage_width);
     number("Notch/Tip margin", notch.tip_margin);
     increments();

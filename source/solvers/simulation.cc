@@ -240,6 +240,8 @@ namespace EBSMPM
           parse_shape<dim>(notch.region, constants(parameters));
         slit.label_width =
           parameters.number("Notch/Label width", notch.label_width);
+        slit.label_reach =
+          parameters.number("Notch/Label reach", notch.label_reach);
         slit.damage_width =
           parameters.number("Notch/Damage width", notch.damage_width);
         slit.tip_margin =

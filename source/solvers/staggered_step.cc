@@ -246,7 +246,7 @@ namespace EBSMPM
     for (unsigned int pass = 1; pass <= data.max_passes; ++pass)
       {
         ++report.passes;
-        bool partition_changed = false;
+        bool partition_changed = (pass == 1 && changed);
         if (data.damage)
           {
             report.damage_change =
@@ -265,6 +265,7 @@ namespace EBSMPM
                                  report.damage_change < data.tolerance);
         solve_displacement(converged ? data.newton.tolerance :
                                        data.intermediate_tolerance,
+                           partition_changed,
                            report);
 
         update = u_system.update_points(state, u_increment);
@@ -343,9 +344,15 @@ namespace EBSMPM
 
   template <int dim>
   void
-  StaggeredStep<dim>::solve_displacement(const double tolerance, Report &report)
+  StaggeredStep<dim>::solve_displacement(const double tolerance,
+                                         const bool   partition_changed,
+                                         Report      &report)
   {
     NewtonSolver::Problem problem;
+
+    // Points that read twins now see a displacement from the other side.
+    if (partition_changed)
+      problem.first_tolerance = 0.1;
     problem.residual = [&](const LA::FieldVector &x, LA::FieldVector &r) {
       TimerOutput::Scope scope(*timer, "assemble residual");
       u_system.assemble_residual(state, boundary, x, r);

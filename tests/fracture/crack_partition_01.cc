@@ -305,4 +305,12 @@ main(int argc, char **argv)
            [](const Point<3> &) { return -1.; },
            true},
           9);
+  // A plane that leaves the body as a wedge, the end of which is less damaged.
+  test<3>({"oblique plane",
+           [](const Point<3> &x) {
+             return (x[0] + x[2] - 1.3) / std::sqrt(2.);
+           },
+           [](const Point<3> &x) { return x[0] - 0.8; },
+           true},
+          9);
 }

@@ -116,10 +116,18 @@ test()
   report("points", points, slit.point, up);
   report("boundary", boundary_points, slit.point, up);
 
+  // Fewer labels ahead of the tip.
+  MaterialPoints<dim> few(triangulation, mapping);
+  PointGenerator::fill(*body, data, few);
+  BoundaryPoints<dim> none(triangulation, mapping);
+  slit.label_reach = 0.1;
+  Notch::label_slit(slit, few, none);
+  report("few ahead", few, slit.point, up);
+  slit.label_reach = 0.;
+
   // The plane on a row of points, up to rounding: these are above.
   MaterialPoints<dim> on_row(triangulation, mapping);
   PointGenerator::fill(*body, data, on_row);
-  BoundaryPoints<dim> none(triangulation, mapping);
   slit.point[1] = 0.525 + 1e-14;
   slit.normal *= -1;
   Notch::label_slit(slit, on_row, none);

@@ -40,7 +40,7 @@ SMALL = {
     "Background grid/Cell size": "1/15",
     "Damage/Length scale": "2.5*h",
     "Loading/Increments": "0.004: 4e-4, 0.012: 1e-4",
-    "Loading/Stop below": "1e-11",
+    "Loading/Stop below": "1e-10",
     "Output/Interval": "0",
 }
 

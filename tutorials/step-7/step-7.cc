@@ -73,7 +73,7 @@ namespace Step7
     static constexpr unsigned int n_layers = 5;
 
     const Simulation<3> &simulation;
-    const double         broken;
+    const double         noticed;
     TableHandler         table;
   };
 
@@ -82,7 +82,7 @@ namespace Step7
   TwistObserver::TwistObserver(const Simulation<3> &simulation,
                                const Parameters    &parameters)
     : simulation(simulation)
-    , broken(parameters.partition.damage_threshold)
+    , noticed(parameters.partition.closure_damage)
   {}
 
 
@@ -121,7 +121,7 @@ namespace Step7
         const MaterialPoint<3> point(copy.get_properties());
         const Point<3> X     = particle.get_location() - point.displacement();
         const int      layer = std::floor(-X[1] / 25. * n_layers);
-        if (point.damage() < broken || layer < 0 ||
+        if (point.damage() < noticed || layer < 0 ||
             layer >= static_cast<int>(n_layers))
           continue;
         const Tensor<1, 3> m = point.side();

@@ -14,6 +14,9 @@
 #include <ebsmpm/assembly/point_state.h>
 
 #include <deal.II/base/partitioner.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <deal.II/lac/full_matrix.h>
 
 #include <vector>
 
@@ -93,13 +96,26 @@ namespace EBSMPM
     bool
     is_free(const unsigned int g) const;
 
+    /**
+     * Return $\sum_m\mathbf r_m(\mathbf x)\otimes\mathbf r_m(\mathbf x)$, where
+     * $\mathbf r_m$ is an orthonormal basis of the rigid motions that nothing
+     * prevents of the piece of group @p g of the material points: what projects
+     * a displacement on where the piece can go. Only if is_free().
+     */
+    SymmetricTensor<2, dim>
+    free_directions(const unsigned int g, const Point<dim> &x) const;
+
   private:
-    /** Where the material of a piece is, and how far it reaches. */
+    /**
+     * Where the material of a piece is, how far it reaches, and, in columns,
+     * the combinations of rigid motions about its centre that nothing prevents.
+     */
     struct Moments
     {
-      double     volume = 0.;
-      Point<dim> centre;
-      double     radius = 1.;
+      double             volume = 0.;
+      Point<dim>         centre;
+      double             radius = 1.;
+      FullMatrix<double> free_motions;
     };
 
     /**
@@ -117,19 +133,21 @@ namespace EBSMPM
                      const std::vector<double> &labels,
                      const std::vector<double> &all_labels);
 
-    /** Count the motions that the Dirichlet data permits. */
+    /** Find the motions that the Dirichlet data permits. */
     void
-    count_free_motions(const CellPoints<dim>           &boundary_points,
-                       const BoundaryState<dim>        &boundary,
-                       const PointGroups<dim>          &boundary_groups,
-                       const std::vector<unsigned int> &piece_of_group,
-                       const std::vector<Moments>      &moments,
-                       const MPI_Comm                  &communicator);
+    find_free_motions(const CellPoints<dim>           &boundary_points,
+                      const BoundaryState<dim>        &boundary,
+                      const PointGroups<dim>          &boundary_groups,
+                      const std::vector<unsigned int> &piece_of_group,
+                      const MPI_Comm                  &communicator);
 
     std::vector<Piece> piece_list;
 
-    /** For each group, whether its piece is free; empty if none is. */
-    std::vector<char> group_is_free;
+    /** More about each piece, in the order of #piece_numbers. */
+    std::vector<Moments> moments;
+
+    /** The piece of each group; empty if none is free. */
+    std::vector<unsigned int> piece_numbers;
   };
 } // namespace EBSMPM
 

@@ -120,12 +120,15 @@ namespace EBSMPM
 
     /**
      * Find the pieces that the body has been cut into, and let those that are
-     * free to move as rigid bodies have a small mass: the residual gets the
-     * term $\sum_p V_0\,\rho\,\Delta\mathbf u\cdot\delta\mathbf u$ there, with
-     * $\rho=10^{-6}\,(K+\frac43G)/h^2$. It is what makes the static problem
-     * solvable; as no load acts on such a piece, it stays where it is, with the
-     * stress it has. reinit() forgets the pieces if anything has changed; as
-     * long as they are known, nothing is done. Collective.
+     * free to move as rigid bodies have a small mass in these directions: the
+     * residual gets the term $\sum_p V_0\,\rho\,\Delta\mathbf
+     * u\cdot\mathbf D_p\,\delta\mathbf u$ there, with
+     * $\rho=10^{-6}\,(K+\frac43G)/h^2$ and the
+     * ConnectedPieces::free_directions() $\mathbf D_p$. It is what makes the
+     * static problem solvable; as no load acts on such a piece, it stays where
+     * it is, with the stress it has, and follows where it is held. reinit()
+     * forgets the pieces if anything has changed; as long as they are known,
+     * nothing is done. Collective.
      */
     void
     hold_free_pieces(const MaterialState<dim> &state,
@@ -292,9 +295,11 @@ namespace EBSMPM
                LA::FieldVector          &residual,
                SystemMatrix             *matrix) const;
 
-    /** Add the mass of the points of a free piece to #local. */
+    /** Add the mass of the points of group @p g, of a free piece, to #local. */
     void
-    add_mass(const AssemblyTask task, const MaterialState<dim> &state) const;
+    add_mass(const AssemblyTask        task,
+             const MaterialState<dim> &state,
+             const unsigned int        g) const;
 
     /**
      * Call <tt>visit(q, value, F)</tt> for all material points, with the

@@ -85,7 +85,8 @@ namespace EBSMPM
    *    the two smallest principal variances below AdditionalData::frozen_ratio,
    *    and the point reads a separable function.
    * 4. The side vector $\mathbf m_I$ of a function is the mean of its points',
-   *    weighted by volume: the side with more material owns it.
+   *    weighted by volume: the side with more material owns it. If neither has
+   *    much more, it is their principal axis, with the sign of the mean.
    * 5. A function is separable if a damage above $d_\text{cr}$ is met between
    *    $-h$ and $+2h$ from it along $\mathbf m_I$ (for a function outside of
    *    the body, anywhere in its support; in 3-D, from the centre of the
@@ -96,16 +97,22 @@ namespace EBSMPM
    *    ridge has arms in all directions, i.e., the ratio of variances is above
    *    one half and the smaller one above 1/16 of the square of the radius:
    *    where cracks meet, two sides are not enough (n_junctions()). If some of
-   *    the material around has settled sides, or there is a gap in it, there was
-   *    a crack before, and it remains one: open lips look the same.
+   *    the material around has settled sides, or there is a gap in it, it was a
+   *    crack before, and it remains one: open lips look the same.
    * 6. Closure: a function on a ridge with $d>0.5$ between two separable ones,
    *    or between one and a free boundary (in 3-D, with nothing intact ahead),
    *    within three cells, is separable as well. Single functions left over
    *    would carry load for ever.
-   * 7. A function without material, which is read by boundary points only, is
+   * 7. In 3-D, a function is separable as well if all points in its support on
+   *    the far side, i.e., with $\mathbf m_p\cdot\mathbf m_I<0$, are in cells
+   *    that see separable functions, and there are such points: the crack has
+   *    passed it. A crack that leaves the body at an angle ends in a thin
+   *    wedge; functions outside of the body would tie its edge to the other
+   *    side.
+   * 8. A function without material, which is read by boundary points only, is
    *    like the closest one that has some. If it stayed whole, it would join
    *    both sides of a crack at a free surface, though without a force.
-   * 8. A point with $\mathbf m_p\cdot\mathbf m_I<0$ reads the twin of the
+   * 9. A point with $\mathbf m_p\cdot\mathbf m_I<0$ reads the twin of the
    *    separable function $I$.
    *
    * An initial slit is the same with labels given at the start.
@@ -244,8 +251,8 @@ namespace EBSMPM
       double                  settled_volume = 0.;
       double                  filled_volume  = 0.;
       std::array<double, dim> vector{};
-      std::array<double, dim> axis{};
       std::array<double, dim> moment{};
+      SymmetricTensor<2, dim> dyads;
     };
 
     using DataTable = typename FunctionDirectory<dim, FunctionData>::Table;
@@ -273,9 +280,14 @@ namespace EBSMPM
 
     /** Step 7. */
     void
+    cut_remainders(const CellPoints<dim>  &points,
+                   const CrackLabels<dim> &labels);
+
+    /** Step 8. */
+    void
     add_bare_functions(const CellPoints<dim> &boundary_points);
 
-    /** Step 8, and freezing; returns whether a pattern changed. */
+    /** Step 9, and freezing; returns whether a pattern changed. */
     bool
     make_patterns(const CellPoints<dim> &points,
                   CrackLabels<dim>      &labels,

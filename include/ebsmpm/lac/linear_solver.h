@@ -12,6 +12,7 @@
 
 #include <ebsmpm/base/config.h>
 
+#include <ebsmpm/lac/local_correction.h>
 #include <ebsmpm/lac/renumbered_preconditioner.h>
 #include <ebsmpm/lac/reusable_preconditioner.h>
 #include <ebsmpm/lac/types.h>
@@ -34,13 +35,14 @@ namespace EBSMPM
    * the surplus is too large, the factorisation is renewed. So the caller need
    * not decide when to factorise, and every solution is as accurate as asked
    * for. It may even have other unknowns than those of today, if renumber()
-   * tells which is which.
+   * tells which is which. Where the matrix has changed in few rows, as at the
+   * tip of a crack, LocalCorrection makes up for that.
    *
    * When is the surplus too large? Say that a new factorisation costs $R$
    * iterations, and that the $n$ solves with the present one took $e_1,\dots,
    * e_n$ iterations more than with a new one. As $e_i$ grows, the average cost
-   * $(R+e_1+\dots+e_n)/n$ of a solve first falls, and then rises. It is smallest
-   * when $e_n$ gets larger than the average: that is the moment.
+   * $(R+e_1+\dots+e_n)/n$ of a solve first falls, and then rises. It is
+   * smallest when $e_n$ gets larger than the average: that is the moment.
    *
    * | Method    | preconditioner                      | where                |
    * | --------- | ----------------------------------- | -------------------- |
@@ -249,7 +251,8 @@ namespace EBSMPM
 
     /**
      * Compute a new preconditioner, and return whether negative eigenvalues
-     * were found. Certain only with MUMPS; the other methods say no. Collective.
+     * were found. Certain only with MUMPS; the other methods say no.
+     * Collective.
      */
     bool
     is_found_indefinite(const LA::SparseMatrix &A);
@@ -301,6 +304,13 @@ namespace EBSMPM
     can_be_reused(const LA::SparseMatrix &A) const;
 
     /**
+     * Correct the preconditioner, which is from another matrix, in the rows
+     * that have changed.
+     */
+    void
+    correct(const LA::SparseMatrix &A);
+
+    /**
      * Iterate until the residual is small enough or the number of iterations
      * too large, and update the report.
      */
@@ -339,6 +349,13 @@ namespace EBSMPM
     LA::FieldVector                           former_row_numbers;
     bool                                      is_renumbered = false;
     std::unique_ptr<RenumberedPreconditioner> renumbered_preconditioner;
+
+    /**
+     * The diagonal of the matrix that the preconditioner was computed from, and
+     * its correction where that of today is another.
+     */
+    LA::Vector      diagonal;
+    LocalCorrection correction;
 
     /**
      * Whether the matrix that the preconditioner was computed from was found

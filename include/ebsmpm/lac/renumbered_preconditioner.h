@@ -64,6 +64,14 @@ namespace EBSMPM
     void
     vmult(LA::Vector &dst, const LA::Vector &src) const;
 
+    /**
+     * Give each unknown of today the value that it has in @p former, which is
+     * distributed like the rows of $P$, and those that are new zero.
+     * Collective.
+     */
+    void
+    transfer(const LA::Vector &former, LA::Vector &today) const;
+
   private:
     const ReusablePreconditioner &preconditioner;
 

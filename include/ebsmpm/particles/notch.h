@@ -46,10 +46,10 @@ namespace EBSMPM
      *   ----+========================+-------+---   |   plane
      *   d   |########################|       |
      *   w   |  side = +n  ___________|_______|
-     *           open                   w
+     *           open                   r
      * @endcode
      * Points within @p label_width (w) of the plane get a side, also a bit
-     * ahead of the tip, where the crack will first look for it. Points within
+     * ahead of the tip (r), where functions of the slit reach. Points within
      * @p damage_width (d) of the open part (#) have a peak damage of 1.
      */
     template <int dim>
@@ -72,10 +72,17 @@ namespace EBSMPM
       std::shared_ptr<const Shape<dim>> open_region;
 
       /**
-       * How far from the plane points are labelled, and how far ahead of the
-       * tip. Four cells is a good choice.
+       * How far from the plane points are labelled. Four cells is a good
+       * choice.
        */
       double label_width;
+
+      /**
+       * How far ahead of the tip points are labelled, or zero for the label
+       * width. Labels are for ever: a crack that turns right at the tip needs
+       * them to be few. Two cells is where points read functions of the slit.
+       */
+      double label_reach = 0.;
 
       /**
        * How far from the plane points count as broken. It should reach a

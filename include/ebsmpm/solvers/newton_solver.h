@@ -83,6 +83,13 @@ namespace EBSMPM
       std::function<const LA::SparseMatrix &()> matrix;
 
       /**
+       * How accurate the first linear solve is, relative to its right hand
+       * side. From a good initial guess, an accurate one reaches the solution
+       * almost at once; from a bad one, it is a waste.
+       */
+      double first_tolerance = 1e-5;
+
+      /**
        * Make the problem smooth, by holding at @p x what switches between
        * branches. Called at most once, when the iteration goes in circles; may
        * be empty.

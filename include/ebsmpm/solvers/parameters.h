@@ -77,6 +77,7 @@ namespace EBSMPM
       std::string plane_normal   = "0, 1";
       std::string region         = "half_space(0.5,0.5, 1,0)";
       std::string label_width    = "5*h";
+      std::string label_reach    = "0";
       std::string damage_width   = "1.01*h";
       std::string tip_margin     = "0";
       bool        faces          = false;

@@ -358,9 +358,14 @@ namespace EBSMPM
                     const LA::FieldVector &update,
                     const LA::FieldVector &last_update) const;
 
-    /** One solve for the displacement. */
+    /**
+     * One solve for the displacement, after which the residual is below
+     * @p tolerance. If the partition has changed, the initial guess is bad.
+     */
     void
-    solve_displacement(const double tolerance, Report &report);
+    solve_displacement(const double tolerance,
+                       const bool   partition_changed,
+                       Report      &report);
 
     /** Measure the opening of the cracks at the end of the step. */
     CrackOpening
