@@ -254,6 +254,7 @@ namespace EBSMPM
         // the fixed side. (Points next to a slit have sides before there is a
         // ridge.)
         Tensor<1, dim> side = mean / sum.volume;
+        function.majority   = side.norm();
         if (side.norm() < clear_majority)
           {
             const Tensor<1, dim> axis =

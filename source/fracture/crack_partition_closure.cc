@@ -166,7 +166,8 @@ namespace EBSMPM
     typename FunctionDirectory<dim, FarSide>::Table far_sides;
     for (const auto &entry : table)
       if (!entry.second.separable && !entry.second.at_junction &&
-          to_tensor(entry.second.side).norm_square() > 0.)
+          to_tensor(entry.second.side).norm_square() > 0. &&
+          entry.second.majority >= data.remainder_majority)
         {
           FarSide &far_side = far_sides[entry.first];
           far_side.side     = entry.second.side;

@@ -389,6 +389,13 @@ namespace EBSMPM
                   "The damage that makes a ridge for the closure of gaps.",
                   prm,
                   Patterns::Double(0.05, 0.999));
+    add_parameter("Remainder majority",
+                  remainder_majority,
+                  "In 3d, how much more material a function that the crack has "
+                  "passed must have on its own side, relative to all, to be "
+                  "separable without damage.",
+                  prm,
+                  Patterns::Double(0., 1.));
     add_parameter("Clear ridge ratio",
                   frozen_ratio,
                   "Ratio of principal variances below which sides are settled.",

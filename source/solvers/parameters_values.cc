@@ -288,6 +288,7 @@ namespace EBSMPM
                                                    partition.frozen_ratio,
                                                    radius);
     data.partition_data.grow    = partition.enable;
+    data.partition_data.remainder_majority = partition.remainder_majority;
     data.newton                 = NewtonSolver::AdditionalData(
       newton.tolerance, newton.maximum_iterations, newton.maximum_bisections);
     data.intermediate_tolerance = newton.intermediate_tolerance;

@@ -103,12 +103,13 @@ namespace EBSMPM
    *    or between one and a free boundary (in 3-D, with nothing intact ahead),
    *    within three cells, is separable as well. Single functions left over
    *    would carry load for ever.
-   * 7. In 3-D, a function is separable as well if all points in its support on
-   *    the far side, i.e., with $\mathbf m_p\cdot\mathbf m_I<0$, are in cells
-   *    that see separable functions, and there are such points: the crack has
-   *    passed it. A crack that leaves the body at an angle ends in a thin
-   *    wedge; functions outside of the body would tie its edge to the other
-   *    side.
+   * 7. In 3-D, a function that has hardly any material on the far side, i.e.,
+   *    points with $\mathbf m_p\cdot\mathbf m_I<0$ (see
+   *    AdditionalData::remainder_majority), is separable as well if all of
+   *    these are in cells that see separable functions, and there are such
+   *    points: the crack has passed it. A crack that leaves the body at an
+   *    angle ends in a thin wedge; functions outside of the body would tie its
+   *    edge to the other side.
    * 8. A function without material, which is read by boundary points only, is
    *    like the closest one that has some. If it stayed whole, it would join
    *    both sides of a crack at a free surface, though without a force.
@@ -160,6 +161,15 @@ namespace EBSMPM
        * slit) is discrete, and damage is no reason for more.
        */
       bool grow = true;
+
+      /**
+       * How much more material a function must have on its own side, relative
+       * to all, to become separable in step 7. In the row next to a crack,
+       * functions have two thirds at most: with three quarters, these are not
+       * cut before their damage says so. With zero they are, and what is left
+       * at the edges of a body breaks sooner.
+       */
+      double remainder_majority = 0.75;
     };
 
     /**
@@ -230,6 +240,12 @@ namespace EBSMPM
 
       /** The function's side vector. */
       std::array<double, dim> side{};
+
+      /**
+       * How much more material is on its side than on the other, relative to
+       * both.
+       */
+      double majority = 0.;
 
       /** The centre of the material in its support. */
       std::array<double, dim> centre{};

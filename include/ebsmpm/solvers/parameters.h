@@ -178,12 +178,13 @@ namespace EBSMPM
     {
       Partition();
 
-      bool         enable           = true;
-      double       damage_threshold = 0.9;
-      double       closure_damage   = 0.5;
-      double       frozen_ratio     = 0.2;
-      unsigned int ridge_radius     = 0;
-      unsigned int maximum_passes   = 50;
+      bool         enable             = true;
+      double       damage_threshold   = 0.9;
+      double       closure_damage     = 0.5;
+      double       frozen_ratio       = 0.2;
+      double       remainder_majority = 0.75;
+      unsigned int ridge_radius       = 0;
+      unsigned int maximum_passes     = 50;
     } partition;
 
     /** Section "Output". */
