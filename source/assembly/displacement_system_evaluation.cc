@@ -139,19 +139,7 @@ namespace EBSMPM
   DisplacementSystem<dim>::update_points(const MaterialState<dim> &state,
                                          const LA::FieldVector &increment) const
   {
-    increment.update_ghost_values();
-    Update update;
-    update.displacement_increment.resize(points->n_points());
-    update.F.resize(points->n_points());
-    evaluate_material(state,
-                      increment,
-                      [&](const unsigned int    q,
-                          const Tensor<1, dim> &value,
-                          const Tensor<2, dim> &F) {
-                        update.displacement_increment[q] = value;
-                        update.F[q]                      = F;
-                      });
-    return update;
+    return update_points(*points, material_groups, state.F, increment);
   }
 
 
@@ -161,18 +149,35 @@ namespace EBSMPM
   DisplacementSystem<dim>::update_points(const BoundaryState<dim> &boundary,
                                          const LA::FieldVector &increment) const
   {
+    return update_points(*boundary_points,
+                         boundary_groups,
+                         boundary.F,
+                         increment);
+  }
+
+
+
+  template <int dim>
+  typename DisplacementSystem<dim>::Update
+  DisplacementSystem<dim>::update_points(const CellPoints<dim>  &at,
+                                         const PointGroups<dim> &groups,
+                                         const std::vector<Tensor<2, dim>> &F_n,
+                                         const LA::FieldVector &increment) const
+  {
     increment.update_ghost_values();
     Update update;
-    update.displacement_increment.resize(boundary_points->n_points());
-    update.F.resize(boundary_points->n_points());
-    evaluate_boundary(boundary,
-                      increment,
-                      [&](const unsigned int    q,
-                          const Tensor<1, dim> &value,
-                          const Tensor<2, dim> &F) {
-                        update.displacement_increment[q] = value;
-                        update.F[q]                      = F;
-                      });
+    update.displacement_increment.resize(at.n_points());
+    update.F.resize(at.n_points());
+    evaluate(at,
+             groups,
+             F_n,
+             increment,
+             [&](const unsigned int    q,
+                 const Tensor<1, dim> &value,
+                 const Tensor<2, dim> &F) {
+               update.displacement_increment[q] = value;
+               update.F[q]                      = F;
+             });
     return update;
   }
 

@@ -81,9 +81,10 @@ namespace EBSMPM
                                      LA::Vector       &today) const
   {
     known->Import(former.trilinos_vector(), *to_former, Insert);
-    today                = 0.;
     double *const values = today.begin();
     for (std::size_t k = 0; k < known_rows.size(); ++k)
       values[known_rows[k]] = (*known)[k];
+    for (const int row : new_rows)
+      values[row] = 0.;
   }
 } // namespace EBSMPM

@@ -301,6 +301,13 @@ namespace EBSMPM
              const MaterialState<dim> &state,
              const unsigned int        g) const;
 
+    /** What the public functions of this name return, for points of a kind. */
+    Update
+    update_points(const CellPoints<dim>             &at,
+                  const PointGroups<dim>            &groups,
+                  const std::vector<Tensor<2, dim>> &F_n,
+                  const LA::FieldVector             &increment) const;
+
     /**
      * Call <tt>visit(q, value, F)</tt> for all material points, with the
      * increment of displacement and the deformation gradient at the end of the
