@@ -184,6 +184,30 @@ namespace EBSMPM
 
   template <int dim>
   void
+  DisplacementSystem<dim>::assemble_tangent(const MaterialState<dim> &state,
+                                            const BoundaryState<dim> &boundary,
+                                            const LA::FieldVector    &increment,
+                                            const std::vector<bool>  &wanted,
+                                            LA::FieldVector          &residual)
+  {
+    AssertDimension(wanted.size(),
+                    functions->locally_owned_size() +
+                      functions->n_ghost_indices());
+    tangent.begin();
+    assemble(AssemblyTask::tangent,
+             state,
+             boundary,
+             increment,
+             residual,
+             &tangent,
+             &wanted);
+    tangent.compress();
+  }
+
+
+
+  template <int dim>
+  void
   DisplacementSystem<dim>::assemble_predictor(
     const MaterialState<dim> &state,
     const BoundaryState<dim> &boundary,
@@ -205,7 +229,8 @@ namespace EBSMPM
                                     const BoundaryState<dim> &boundary,
                                     const LA::FieldVector    &increment,
                                     LA::FieldVector          &residual,
-                                    SystemMatrix             *matrix) const
+                                    SystemMatrix             *matrix,
+                                    const std::vector<bool>  *wanted) const
   {
     increment.update_ghost_values();
     residual = 0.;
@@ -215,7 +240,7 @@ namespace EBSMPM
     std::string failure;
     try
       {
-        add_groups(task, state, boundary, increment, residual, matrix);
+        add_groups(task, state, boundary, increment, residual, matrix, wanted);
       }
     catch (const ExcSolverFailure &exception)
       {
@@ -249,17 +274,30 @@ namespace EBSMPM
                                       const BoundaryState<dim> &boundary,
                                       const LA::FieldVector    &increment,
                                       LA::FieldVector          &residual,
-                                      SystemMatrix             *matrix) const
+                                      SystemMatrix             *matrix,
+                                      const std::vector<bool>  *wanted) const
   {
-    unsigned int list       = 0;
-    const auto   distribute = [&]() {
+    const auto is_wanted = [&](const PointGroups<dim>                 &groups,
+                               const typename PointGroups<dim>::Group &group) {
+      if (wanted == nullptr)
+        return true;
+      const unsigned int *f = groups.functions(group);
+      return std::any_of(f,
+                         f + group.n_functions,
+                         [&](const unsigned int i) { return (*wanted)[i]; });
+    };
+    const auto distribute = [&](const unsigned int list) {
       local.distribute_residual(residual);
       if (task != AssemblyTask::residual)
-        local.distribute_tangent(list++, *matrix);
+        local.distribute_tangent(list, *matrix);
     };
 
-    for (unsigned int g = 0; g < material_groups.groups().size(); ++g)
+    // Groups, and then the lone ones, are numbered as the lists of the matrix.
+    const unsigned int n_groups = material_groups.groups().size();
+    for (unsigned int g = 0; g < n_groups; ++g)
       {
+        if (!is_wanted(material_groups, material_groups.groups()[g]))
+          continue;
         local.reinit(*points, material_groups, material_groups.groups()[g]);
         local.gather(increment);
         elastic_terms.compute(task, state, branches, local);
@@ -272,16 +310,17 @@ namespace EBSMPM
                         boundary_groups.groups()[partners[g]]);
             nitsche_terms.compute(task, boundary, boundary_branches, local);
           }
-        distribute();
+        distribute(g);
       }
-    for (const unsigned int b : lone_boundary_groups)
+    for (unsigned int l = 0; l < lone_boundary_groups.size(); ++l)
       {
-        local.reinit(*boundary_points,
-                     boundary_groups,
-                     boundary_groups.groups()[b]);
+        const auto &group = boundary_groups.groups()[lone_boundary_groups[l]];
+        if (!is_wanted(boundary_groups, group))
+          continue;
+        local.reinit(*boundary_points, boundary_groups, group);
         local.gather(increment);
         nitsche_terms.compute(task, boundary, boundary_branches, local);
-        distribute();
+        distribute(n_groups + l);
       }
   }
 

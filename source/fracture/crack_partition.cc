@@ -416,6 +416,17 @@ namespace EBSMPM
 
 
   template <int dim>
+  void
+  CrackPartition<dim>::clear()
+  {
+    point_patterns.clear();
+    boundary_point_patterns.clear();
+    any_twin = false;
+  }
+
+
+
+  template <int dim>
   const std::vector<typename CrackPartition<dim>::Pattern> &
   CrackPartition<dim>::patterns() const
   {

@@ -316,6 +316,14 @@ namespace EBSMPM
 
 
 
+  unsigned int
+  LinearSolver::iterations_when_new(const double reduction) const
+  {
+    return std::ceil(-std::log(reduction) / reduction_when_new);
+  }
+
+
+
   LinearSolver::Outcome
   LinearSolver::iterate(const LA::SparseMatrix &A,
                         LA::Vector             &x,
@@ -367,7 +375,8 @@ namespace EBSMPM
           report.indefinite = true;
       }
     report.iterations += control.last_step();
-    report.final_residual = control.last_value();
+    report.initial_residual = control.initial_value();
+    report.final_residual   = control.last_value();
 
     // The iteration only updates its residual. With a matrix that is singular
     // up to round-off, that has nothing to do with the true one.
@@ -432,7 +441,7 @@ namespace EBSMPM
                   b,
                   tolerance,
                   std::min(additional_data.max_iterations,
-                           iterations_when_new +
+                           iterations_when_new(relative_tolerance) +
                              additional_data.refresh_iterations),
                   is_indefinite || method == Method::gmres_amg,
                   report);
@@ -441,9 +450,11 @@ namespace EBSMPM
             report.indefinite = is_indefinite;
 
             // Was this one too many?
+            const unsigned int least =
+              iterations_when_new(report.final_residual /
+                                  report.initial_residual);
             const unsigned int excess =
-              std::max(report.iterations, iterations_when_new) -
-              iterations_when_new;
+              std::max(report.iterations, least) - least;
             ++n_solves;
             surplus += excess;
             if (n_solves * excess >
@@ -476,8 +487,11 @@ namespace EBSMPM
         x             = start;
         outcome       = iterate_once();
       }
-    report.indefinite   = report.indefinite || is_indefinite;
-    iterations_when_new = report.iterations - iterations_before;
+    report.indefinite             = report.indefinite || is_indefinite;
+    const unsigned int iterations = report.iterations - iterations_before;
+    reduction_when_new =
+      std::log(report.initial_residual / report.final_residual) /
+      std::max(1U, iterations);
 
     if (outcome != Outcome::converged)
       {
@@ -499,7 +513,7 @@ namespace EBSMPM
                     ExcSolverFailure("The linear solver (" +
                                      preconditioner->name() +
                                      ") stagnates: after " +
-                                     std::to_string(iterations_when_new) +
+                                     std::to_string(iterations) +
                                      " iterations the relative residual is " +
                                      residual + "."));
       }

@@ -198,10 +198,15 @@ namespace EBSMPM
           problem.tangent(x, residual);
 
         // As accurate as the nonlinear convergence can make use of.
-        double eta = (report.iterations == 0) ?
-                       problem.first_tolerance :
-                       std::min(0.1, 0.9 * ratio * ratio);
-        eta        = std::max({eta, 0.1 * target / norm, 1e-12});
+        double eta = std::min(0.1, 0.9 * ratio * ratio);
+        if (report.iterations == 0)
+          {
+            eta = problem.first_tolerance;
+            // If that falls short of the target by little, go there at once.
+            if (eta * norm > target && eta * norm < 100. * target)
+              eta = 0.3 * target / norm;
+          }
+        eta = std::max({eta, 0.1 * target / norm, 1e-12});
 
         update.zero_out_ghost_values();
         update = 0.;

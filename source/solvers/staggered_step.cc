@@ -266,6 +266,7 @@ namespace EBSMPM
         solve_displacement(converged ? data.newton.tolerance :
                                        data.intermediate_tolerance,
                            partition_changed,
+                           pass == 1 && guess_factor == 0.,
                            report);
 
         update = u_system.update_points(state, u_increment);
@@ -346,6 +347,7 @@ namespace EBSMPM
   void
   StaggeredStep<dim>::solve_displacement(const double tolerance,
                                          const bool   partition_changed,
+                                         const bool   from_zero,
                                          Report      &report)
   {
     NewtonSolver::Problem problem;
@@ -374,8 +376,14 @@ namespace EBSMPM
       u_system.hold_branches(state, boundary, x);
     };
 
-    TimerOutput::Scope scope(*timer, "Newton");
     u_system.release_branches();
+    if (partition_changed && !from_zero)
+      {
+        TimerOutput::Scope scope(*timer, "nonlinear elimination");
+        elimination.improve(u_system, state, boundary, u_increment);
+      }
+
+    TimerOutput::Scope scope(*timer, "Newton");
     const double scale = force_scale;
     const auto   result =
       newton.solve(problem, u_solver, scale, tolerance, u_increment);

@@ -72,6 +72,7 @@ namespace EBSMPM
 
     u_solver.clear();
     d_solver.clear();
+    partition.clear();
     u_space.recall(memory.standard_u);
     d_space.recall(memory.standard_d);
     u_increment.reinit(0);

@@ -51,6 +51,7 @@ namespace EBSMPM
     : mpi_communicator(get_mpi_communicator(triangulation))
     , cell_lattice(triangulation)
     , p(degree)
+    , shared_functions(triangulation, degree)
     , table(std::make_shared<const FunctionTable>())
     , directory(mpi_communicator)
   {
@@ -92,10 +93,11 @@ namespace EBSMPM
   typename SplineSpace<dim>::FunctionTable
   SplineSpace<dim>::classify(const SupportTable &supports,
                              const double        threshold,
-                             const double        hysteresis) const
+                             const double        hysteresis)
   {
     const unsigned int my_rank =
       Utilities::MPI::this_mpi_process(mpi_communicator);
+    shared_functions.update(cell_lattice);
 
     // Who was standard before? If nobody here has seen a function, ask.
     FunctionTable elsewhere;
@@ -120,7 +122,7 @@ namespace EBSMPM
     };
 
     // Add up the shares. The owner is the lowest rank that sees the function.
-    FunctionTable result;
+    FunctionTable result, shared;
     result.reserve(supports.size());
     for (const auto &entry : supports)
       {
@@ -131,16 +133,19 @@ namespace EBSMPM
         function.category = was_standard(entry.first) ?
                               FunctionClass::standard :
                               FunctionClass::deficient;
-        result.emplace(entry.first, function);
+        (shared_functions.contains(entry.first) ? shared : result)
+          .emplace(entry.first, function);
       }
-    result = directory.reduce(result, [](Function a, const Function &b) {
-      a.fraction += b.fraction;
-      a.owner  = std::min(a.owner, b.owner);
-      a.shared = true;
-      if (b.category == FunctionClass::standard)
-        a.category = b.category;
-      return a;
-    });
+    for (const auto &entry :
+         directory.reduce(shared, [](Function a, const Function &b) {
+           a.fraction += b.fraction;
+           a.owner  = std::min(a.owner, b.owner);
+           a.shared = true;
+           if (b.category == FunctionClass::standard)
+             a.category = b.category;
+           return a;
+         }))
+      result.insert(entry);
 
     // The totals are the same, bit by bit, on all processes that see a
     // function, and hence so are the classes. The relative margin keeps

@@ -86,6 +86,7 @@ CASES = {
     "penny-5-4-free": [penny(5, 4), FREE_PENNY],
     "penny-8-4": [penny(8, 4)],
     "penny-10-4": [penny(10, 4)],
+    **{f"penny-{n}-3": [penny(n, 3)] for n in (8, 10, 12, 14, 16)},
 }
 
 

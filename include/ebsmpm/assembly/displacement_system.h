@@ -180,7 +180,23 @@ namespace EBSMPM
                      LA::FieldVector          &residual);
 
     /**
-     * The same without the derivative of $\mathbf A$ in the last term, which is
+     * The same, but right in the rows of some functions only, for which few
+     * groups of points have to be looked at. What is in the other rows is of no
+     * use.
+     *
+     * @param functions for each function that groups() of this process read,
+     *   by its number there, whether its rows are wanted; the same on all
+     *   processes that know it
+     */
+    void
+    assemble_tangent(const MaterialState<dim> &state,
+                     const BoundaryState<dim> &boundary,
+                     const LA::FieldVector    &increment,
+                     const std::vector<bool>  &functions,
+                     LA::FieldVector          &residual);
+
+    /**
+     * The tangent without the derivative of $\mathbf A$ in the last term, which is
      * proportional to $\mathbf w$. It vanishes with $\mathbf w$ at the
      * solution; but where a step begins, $\mathbf w$ is as large as the
      * increment of the Dirichlet data, and the exact tangent is useless: for a
@@ -276,7 +292,7 @@ namespace EBSMPM
   private:
     /**
      * Compute the residual, or the tangent as well; @p matrix may be a null
-     * pointer if it is not wanted.
+     * pointer if it is not wanted, and so may @p wanted if all functions are.
      */
     void
     assemble(const AssemblyTask        task,
@@ -284,16 +300,21 @@ namespace EBSMPM
              const BoundaryState<dim> &boundary,
              const LA::FieldVector    &increment,
              LA::FieldVector          &residual,
-             SystemMatrix             *matrix) const;
+             SystemMatrix             *matrix,
+             const std::vector<bool>  *wanted = nullptr) const;
 
-    /** Add the terms of all groups of points of this process. */
+    /**
+     * Add the terms of all groups of points of this process, or of those that
+     * read functions that are wanted.
+     */
     void
     add_groups(const AssemblyTask        task,
                const MaterialState<dim> &state,
                const BoundaryState<dim> &boundary,
                const LA::FieldVector    &increment,
                LA::FieldVector          &residual,
-               SystemMatrix             *matrix) const;
+               SystemMatrix             *matrix,
+               const std::vector<bool>  *wanted) const;
 
     /** Add the mass of the points of group @p g, of a free piece, to #local. */
     void

@@ -197,6 +197,10 @@ namespace EBSMPM
            CrackLabels<dim>          &labels,
            CrackLabels<dim>          &boundary_labels);
 
+    /** Forget the patterns, as if there had been no update() before. */
+    void
+    clear();
+
     /** Which functions the material points read as twins. */
     const std::vector<Pattern> &
     patterns() const;

@@ -40,9 +40,10 @@ namespace EBSMPM
    *
    * When is the surplus too large? Say that a new factorisation costs $R$
    * iterations, and that the $n$ solves with the present one took $e_1,\dots,
-   * e_n$ iterations more than with a new one. As $e_i$ grows, the average cost
-   * $(R+e_1+\dots+e_n)/n$ of a solve first falls, and then rises. It is
-   * smallest when $e_n$ gets larger than the average: that is the moment.
+   * e_n$ iterations more than with a new one, which would have reduced the
+   * residual in each by as much as in its first solve. As $e_i$ grows, the
+   * average cost $(R+e_1+\dots+e_n)/n$ of a solve first falls, and then rises.
+   * It is smallest when $e_n$ gets larger than the average: that is the moment.
    *
    * | Method    | preconditioner                      | where                |
    * | --------- | ----------------------------------- | -------------------- |
@@ -163,9 +164,11 @@ namespace EBSMPM
       bool indefinite = false;
 
       /**
-       * The norm of the residual, absolute.
+       * The norm of the residual, absolute, before and after the iteration that
+       * has led to the solution.
        */
-      double final_residual = 0.;
+      double initial_residual = 0.;
+      double final_residual   = 0.;
     };
 
     /**
@@ -311,6 +314,13 @@ namespace EBSMPM
     correct(const LA::SparseMatrix &A);
 
     /**
+     * Return how many iterations a new preconditioner would need to reduce the
+     * residual to a part of it, judging from its first solve.
+     */
+    unsigned int
+    iterations_when_new(const double reduction) const;
+
+    /**
      * Iterate until the residual is small enough or the number of iterations
      * too large, and update the report.
      */
@@ -364,12 +374,13 @@ namespace EBSMPM
     bool is_indefinite = false;
 
     /**
-     * The number of iterations with the new preconditioner; the number of
-     * solves since then, and by how much they have exceeded it in all.
+     * The logarithm of the factor by which an iteration with the new
+     * preconditioner has reduced the residual; the number of solves since then,
+     * and how many iterations more than with a new one they took in all.
      */
-    unsigned int iterations_when_new = 0;
-    unsigned int n_solves            = 0;
-    unsigned int surplus             = 0;
+    double       reduction_when_new = 1.;
+    unsigned int n_solves           = 0;
+    unsigned int surplus            = 0;
   };
 } // namespace EBSMPM
 

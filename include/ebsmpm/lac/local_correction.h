@@ -12,6 +12,7 @@
 
 #include <ebsmpm/base/config.h>
 
+#include <ebsmpm/lac/local_factorization.h>
 #include <ebsmpm/lac/types.h>
 
 #include <Epetra_CrsMatrix.h>
@@ -22,8 +23,6 @@
 
 namespace EBSMPM
 {
-  class KluFactorization;
-
   /**
    * What makes a preconditioner that is out of date in a few rows good again:
    * the inverse of the present matrix there.
@@ -46,10 +45,6 @@ namespace EBSMPM
   class LocalCorrection
   {
   public:
-    LocalCorrection();
-
-    ~LocalCorrection();
-
     /**
      * Factorise a part of the matrix @p A, which is symmetric. A process whose
      * part is singular corrects nothing.
@@ -90,19 +85,13 @@ namespace EBSMPM
     void
     finish(LA::Vector &dst, const LA::Vector &src) const;
 
-    /** Solve for #part, in place. */
-    void
-    solve() const;
-
     /** The rows of this process, in all columns, and the inverse. */
     std::vector<int>                  rows;
     std::unique_ptr<Epetra_CrsMatrix> rows_of_matrix;
-    std::unique_ptr<KluFactorization> factorization;
+    LocalFactorization                inverse;
 
-    /** Scratch: in the rows, for the factorisation, and everywhere. */
+    /** Scratch: in the rows, and everywhere. */
     std::unique_ptr<Epetra_Vector> part;
-    mutable LA::Vector             part_src;
-    mutable LA::Vector             part_dst;
     mutable LA::Vector             remainder;
     mutable LA::Vector             product;
   };

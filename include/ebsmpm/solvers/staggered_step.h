@@ -27,6 +27,7 @@
 
 #include <ebsmpm/solvers/dirichlet_conditions.h>
 #include <ebsmpm/solvers/newton_solver.h>
+#include <ebsmpm/solvers/nonlinear_elimination.h>
 #include <ebsmpm/solvers/traction_conditions.h>
 
 #include <deal.II/base/timer.h>
@@ -360,11 +361,13 @@ namespace EBSMPM
 
     /**
      * One solve for the displacement, after which the residual is below
-     * @p tolerance. If the partition has changed, the initial guess is bad.
+     * @p tolerance. If the partition has changed, the initial guess is bad
+     * where it has; elsewhere it is good, unless @p from_zero.
      */
     void
     solve_displacement(const double tolerance,
                        const bool   partition_changed,
+                       const bool   from_zero,
                        Report      &report);
 
     /** Measure the opening of the cracks at the end of the step. */
@@ -413,6 +416,7 @@ namespace EBSMPM
     DisplacementSystem<dim> u_system;
     DamageSystem<dim>       d_system;
     NewtonSolver            newton;
+    NonlinearElimination<dim> elimination;
     LinearSolver            u_solver;
     LinearSolver            d_solver;
 

@@ -13,6 +13,7 @@
 #include <ebsmpm/splines/cartesian_lattice.h>
 #include <ebsmpm/splines/function_directory.h>
 #include <ebsmpm/splines/function_key.h>
+#include <ebsmpm/splines/shared_functions.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/tensor.h>
@@ -241,7 +242,7 @@ namespace EBSMPM
     FunctionTable
     classify(const SupportTable &supports,
              const double        threshold,
-             const double        hysteresis) const;
+             const double        hysteresis);
 
     /** Compare with the functions of this process. */
     Change
@@ -258,6 +259,7 @@ namespace EBSMPM
     const MPI_Comm              mpi_communicator;
     const CartesianLattice<dim> cell_lattice;
     const unsigned int          p;
+    SharedFunctions<dim>        shared_functions;
 
     std::shared_ptr<const FunctionTable> table;
     FunctionDirectory<dim, Function>     directory;
