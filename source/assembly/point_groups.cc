@@ -10,6 +10,7 @@
 #include <ebsmpm/assembly/point_groups.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace EBSMPM
 {
@@ -81,6 +82,22 @@ namespace EBSMPM
     if (new_origin == origin)
       return false;
     std::swap(origin, new_origin);
+
+    // Often, points have gone from one of the cells to another, and that is
+    // all.
+    if (patterns.empty() && origin.has_same_functions(new_origin))
+      {
+        max_points = 0;
+        for (auto &group : group_list)
+          {
+            group.begin = points.cells()[group.cell].begin;
+            group.end   = points.cells()[group.cell].end;
+            max_points  = std::max(max_points, group.end - group.begin);
+          }
+        point_numbers.resize(points.n_points());
+        std::iota(point_numbers.begin(), point_numbers.end(), 0U);
+        return true;
+      }
 
     group_list.clear();
     point_numbers.clear();

@@ -211,32 +211,40 @@ namespace EBSMPM
                               labels,
                               boundary_labels);
     };
-    const bool changed = data.partition && update_partition();
-    if (changed || !space_is_current)
-      build_displacement_space();
+    bool partition_changed = data.partition && update_partition();
+    if (partition_changed)
+      space_is_current = false;
 
-    u_increment.zero_out_ghost_values();
-    u_increment = 0.;
-    if (guess_factor != 0.)
-      {
-        last_increment.template transfer<dim>(u_space, u_increment);
-        u_increment *= guess_factor;
-      }
+    const auto begin_increment = [&]() {
+      u_increment.reinit(0);
+      if (!space_is_current)
+        build_displacement_space();
+      else
+        u_system.initialize_vector(u_increment);
+      if (guess_factor != 0.)
+        {
+          last_increment.template transfer<dim>(u_space, u_increment);
+          u_increment *= guess_factor;
+        }
 
-    // The force of a broken specimen goes to zero, so compare residuals with
-    // the largest one so far; before there is any, with the first residual.
-    // That is large, as no Dirichlet data are met yet, but what is lost by
-    // roundoff is a part of it, and a piece that nothing holds never has a
-    // force.
-    if (first_residual == 0.)
-      {
-        LA::FieldVector residual = u_system.make_vector();
-        u_system.assemble_residual(state, boundary, u_increment, residual);
-        first_residual = residual.l2_norm();
-      }
-    force_scale = largest_force == 0. ?
-                    first_residual :
-                    std::max(largest_force, 1e-3 * first_residual);
+      // The force of a broken specimen goes to zero, so compare residuals with
+      // the largest one so far; before there is any, with the first residual.
+      // That is large, as no Dirichlet data are met yet, but what is lost by
+      // roundoff is a part of it, and a piece that nothing holds never has a
+      // force.
+      if (first_residual == 0.)
+        {
+          LA::FieldVector residual = u_system.make_vector();
+          u_system.assemble_residual(state, boundary, u_increment, residual);
+          first_residual = residual.l2_norm();
+        }
+      force_scale = largest_force == 0. ?
+                      first_residual :
+                      std::max(largest_force, 1e-3 * first_residual);
+    };
+    // The space is spared if the damage is going to change it.
+    if (data.damage_boundary_term)
+      begin_increment();
 
     const bool      iterate    = data.damage && data.max_passes > 1;
     bool            converged  = !iterate;
@@ -246,7 +254,8 @@ namespace EBSMPM
     for (unsigned int pass = 1; pass <= data.max_passes; ++pass)
       {
         ++report.passes;
-        bool partition_changed = (pass == 1 && changed);
+        if (pass > 1)
+          partition_changed = false;
         if (data.damage)
           {
             report.damage_change =
@@ -256,10 +265,14 @@ namespace EBSMPM
                 update_partition())
               {
                 partition_changed = true;
+                space_is_current  = false;
                 ++report.rebuilds;
-                build_displacement_space();
               }
           }
+        if (pass == 1 && !data.damage_boundary_term)
+          begin_increment();
+        else if (!space_is_current)
+          build_displacement_space();
 
         converged = !iterate || (pass > 1 && !partition_changed &&
                                  report.damage_change < data.tolerance);

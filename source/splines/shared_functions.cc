@@ -59,10 +59,10 @@ namespace EBSMPM
             }
         }
 
-    keys.clear();
+    own.clear();
     for (const auto &entry : n_owned)
-      if (entry.second < n_cells)
-        keys.insert(entry.first);
+      if (entry.second == n_cells)
+        own.insert(entry.first);
   }
 
 
@@ -71,7 +71,7 @@ namespace EBSMPM
   bool
   SharedFunctions<dim>::contains(const FunctionKey<dim> &key) const
   {
-    return keys.count(key.with_part(0)) > 0;
+    return own.count(key.with_part(0)) == 0;
   }
 
 

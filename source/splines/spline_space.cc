@@ -66,17 +66,20 @@ namespace EBSMPM
                            const double        threshold,
                            const double        hysteresis)
   {
-    FunctionTable new_table = classify(supports, threshold, hysteresis);
+    std::vector<Renewal> renewals;
+    FunctionTable        new_table =
+      classify(supports, threshold, hysteresis, renewals);
 
     // Most often, nothing has changed since the last time but fractions.
-    const auto change = static_cast<Change>(
-      Utilities::MPI::max(static_cast<int>(compare(new_table)),
-                          mpi_communicator));
+    const auto change =
+      static_cast<Change>(Utilities::MPI::max(static_cast<int>(
+                                                compare(renewals)),
+                                              mpi_communicator));
     if (change == Change::functions)
       number(new_table);
     else
-      for (auto &entry : new_table)
-        entry.second.index = table->at(entry.first).index;
+      for (const Renewal &renewal : renewals)
+        renewal.now->index = renewal.before->index;
 
     if (change != Change::fractions)
       {
@@ -91,61 +94,67 @@ namespace EBSMPM
 
   template <int dim>
   typename SplineSpace<dim>::FunctionTable
-  SplineSpace<dim>::classify(const SupportTable &supports,
-                             const double        threshold,
-                             const double        hysteresis)
+  SplineSpace<dim>::classify(const SupportTable   &supports,
+                             const double          threshold,
+                             const double          hysteresis,
+                             std::vector<Renewal> &renewals)
   {
     const unsigned int my_rank =
       Utilities::MPI::this_mpi_process(mpi_communicator);
     shared_functions.update(cell_lattice);
 
-    // Who was standard before? If nobody here has seen a function, ask.
-    FunctionTable elsewhere;
-    const bool    remember = (hysteresis > 0. && change_counter > 0);
-    if (remember)
-      {
-        std::vector<Key> unknown;
-        for (const auto &entry : supports)
-          if (find(entry.first) == nullptr)
-            unknown.push_back(entry.first);
-        elsewhere = directory.query(unknown);
-      }
-    const auto was_standard = [&](const Key &key) {
-      if (!remember)
-        return false;
-      const Function *function = find(key);
-      const auto      found    = elsewhere.find(key);
-      if (function == nullptr && found != elsewhere.end())
-        function = &found->second;
-      return function != nullptr &&
-             function->category == FunctionClass::standard;
+    // Who was standard before? What nobody here has seen comes later.
+    const bool remember = (hysteresis > 0. && change_counter > 0);
+    const auto former_category = [&](const Function *function) {
+      return remember && function != nullptr &&
+                 function->category == FunctionClass::standard ?
+               FunctionClass::standard :
+               FunctionClass::deficient;
     };
 
-    // Add up the shares. The owner is the lowest rank that sees the function.
-    FunctionTable result, shared;
+    renewals.clear();
+    renewals.reserve(supports.size());
+    std::vector<Key> unknown;
+    FunctionTable    result, shared;
     result.reserve(supports.size());
     for (const auto &entry : supports)
       {
+        const Function *before = find(entry.first);
+        if (before == nullptr)
+          unknown.push_back(entry.first);
+
         Function function;
         function.owner    = my_rank;
         function.fraction = entry.second.fraction;
         function.side     = entry.second.side;
-        function.category = was_standard(entry.first) ?
-                              FunctionClass::standard :
-                              FunctionClass::deficient;
-        (shared_functions.contains(entry.first) ? shared : result)
-          .emplace(entry.first, function);
+        function.category = former_category(before);
+        if (shared_functions.contains(entry.first))
+          shared.emplace(entry.first, function);
+        else
+          renewals.push_back(
+            {&result.emplace(entry.first, function).first->second, before});
       }
-    for (const auto &entry :
-         directory.reduce(shared, [](Function a, const Function &b) {
-           a.fraction += b.fraction;
-           a.owner  = std::min(a.owner, b.owner);
-           a.shared = true;
-           if (b.category == FunctionClass::standard)
-             a.category = b.category;
-           return a;
-         }))
-      result.insert(entry);
+    if (remember)
+      for (const auto &entry : directory.query(unknown))
+        for (FunctionTable *part : {&result, &shared})
+          {
+            const auto found = part->find(entry.first);
+            if (found != part->end())
+              found->second.category = former_category(&entry.second);
+          }
+
+    // Add up the shares. The owner is the lowest rank that sees the function.
+    shared = directory.reduce(shared, [](Function a, const Function &b) {
+      a.fraction += b.fraction;
+      a.owner  = std::min(a.owner, b.owner);
+      a.shared = true;
+      if (b.category == FunctionClass::standard)
+        a.category = b.category;
+      return a;
+    });
+    for (const auto &entry : shared)
+      renewals.push_back(
+        {&result.insert(entry).first->second, find(entry.first)});
 
     // The totals are the same, bit by bit, on all processes that see a
     // function, and hence so are the classes. The relative margin keeps
@@ -169,20 +178,19 @@ namespace EBSMPM
 
   template <int dim>
   typename SplineSpace<dim>::Change
-  SplineSpace<dim>::compare(const FunctionTable &other) const
+  SplineSpace<dim>::compare(const std::vector<Renewal> &renewals) const
   {
-    if (change_counter == 0 || other.size() != table->size())
+    if (change_counter == 0 || renewals.size() != table->size())
       return Change::functions;
     Change result = Change::fractions;
-    for (const auto &entry : other)
+    for (const Renewal &renewal : renewals)
       {
-        const Function *function = find(entry.first);
-        if (function == nullptr ||
-            function->category != entry.second.category ||
-            function->owner != entry.second.owner ||
-            function->shared != entry.second.shared)
+        const Function *before = renewal.before;
+        const Function &now    = *renewal.now;
+        if (before == nullptr || before->category != now.category ||
+            before->owner != now.owner || before->shared != now.shared)
           return Change::functions;
-        if (function->side != entry.second.side)
+        if (before->side != now.side)
           result = Change::sides;
       }
     return result;

@@ -181,9 +181,17 @@ namespace EBSMPM
       bool
       operator==(const Origin &other) const
       {
+        return has_same_functions(other) && ends == other.ends &&
+               patterns == other.patterns;
+      }
+
+      /** Whether the groups read the same, as long as there are no patterns. */
+      bool
+      has_same_functions(const Origin &other) const
+      {
         return space == other.space && n_changes == other.n_changes &&
                cells == other.cells && levels == other.levels &&
-               ends == other.ends && patterns == other.patterns;
+               patterns.empty() == other.patterns.empty();
       }
     };
     Origin origin;

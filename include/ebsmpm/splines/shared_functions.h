@@ -53,10 +53,7 @@ namespace EBSMPM
     void
     update(const CartesianLattice<dim> &lattice);
 
-    /**
-     * Return whether other processes may see a function, of which this process
-     * sees a cell.
-     */
+    /** Return whether other processes may see a function. */
     bool
     contains(const FunctionKey<dim> &key) const;
 
@@ -67,8 +64,10 @@ namespace EBSMPM
     bool                                            outdated = true;
     std::vector<boost::signals2::scoped_connection> connections;
 
-    /** In part 0: a twin has the support of its function. */
-    std::unordered_set<FunctionKey<dim>, FunctionKeyHash<dim>> keys;
+    /**
+     * The others, in part 0: a twin has the support of its function.
+     */
+    std::unordered_set<FunctionKey<dim>, FunctionKeyHash<dim>> own;
   };
 } // namespace EBSMPM
 

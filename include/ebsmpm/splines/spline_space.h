@@ -238,15 +238,26 @@ namespace EBSMPM
       functions
     };
 
-    /** Decide about classes and owners. Collective. */
-    FunctionTable
-    classify(const SupportTable &supports,
-             const double        threshold,
-             const double        hysteresis);
+    /** A function as it is now, and as it was before, if it was known here. */
+    struct Renewal
+    {
+      Function       *now;
+      const Function *before;
+    };
 
-    /** Compare with the functions of this process. */
+    /**
+     * Decide about classes and owners, and list what has become of the
+     * functions. Collective.
+     */
+    FunctionTable
+    classify(const SupportTable   &supports,
+             const double          threshold,
+             const double          hysteresis,
+             std::vector<Renewal> &renewals);
+
+    /** What has changed at the functions of this process. */
     Change
-    compare(const FunctionTable &other) const;
+    compare(const std::vector<Renewal> &renewals) const;
 
     /** Number the functions that this process owns. Collective. */
     void
