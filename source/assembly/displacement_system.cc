@@ -193,7 +193,7 @@ namespace EBSMPM
     AssertDimension(wanted.size(),
                     functions->locally_owned_size() +
                       functions->n_ghost_indices());
-    tangent.begin();
+    tangent.begin(&wanted);
     assemble(AssemblyTask::tangent,
              state,
              boundary,
@@ -282,9 +282,9 @@ namespace EBSMPM
       if (wanted == nullptr)
         return true;
       const unsigned int *f = groups.functions(group);
-      return std::any_of(f,
-                         f + group.n_functions,
-                         [&](const unsigned int i) { return (*wanted)[i]; });
+      return std::any_of(f, f + group.n_functions, [&](const unsigned int i) {
+        return (*wanted)[i];
+      });
     };
     const auto distribute = [&](const unsigned int list) {
       local.distribute_residual(residual);

@@ -450,9 +450,8 @@ namespace EBSMPM
             report.indefinite = is_indefinite;
 
             // Was this one too many?
-            const unsigned int least =
-              iterations_when_new(report.final_residual /
-                                  report.initial_residual);
+            const unsigned int least = iterations_when_new(
+              report.final_residual / report.initial_residual);
             const unsigned int excess =
               std::max(report.iterations, least) - least;
             ++n_solves;
@@ -510,12 +509,11 @@ namespace EBSMPM
                                      ") leaves a relative residual of " +
                                      residual + "."));
         AssertThrow(false,
-                    ExcSolverFailure("The linear solver (" +
-                                     preconditioner->name() +
-                                     ") stagnates: after " +
-                                     std::to_string(iterations) +
-                                     " iterations the relative residual is " +
-                                     residual + "."));
+                    ExcSolverFailure(
+                      "The linear solver (" + preconditioner->name() +
+                      ") stagnates: after " + std::to_string(iterations) +
+                      " iterations the relative residual is " + residual +
+                      "."));
       }
     return report;
   }

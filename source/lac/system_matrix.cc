@@ -355,8 +355,9 @@ namespace EBSMPM
 
 
   void
-  SystemMatrix::begin()
+  SystemMatrix::begin(const std::vector<bool> *wanted_functions)
   {
+    wanted    = wanted_functions;
     next_list = 0;
     for (unsigned int f = 0; f < n_owned; ++f)
       if (last_lists[f] < first_lists[f])
@@ -459,11 +460,14 @@ namespace EBSMPM
     const unsigned int  n          = list_begins[list + 1] - list_begins[list];
     const unsigned int *f          = list_functions.data() + list_begins[list];
     const unsigned int  block_size = n_components * n_components;
+    const auto          is_wanted  = [this](const unsigned int function) {
+      return wanted == nullptr || (*wanted)[function];
+    };
 
     for (unsigned int i = 0; i < n; ++i)
       {
         row_pointers[i] = open_row(f[i]);
-        if (first_lists[f[i]] == list)
+        if (first_lists[f[i]] == list && is_wanted(f[i]))
           std::fill_n(row_pointers[i],
                       block_size * (row_functions_begins[f[i] + 1] -
                                     row_functions_begins[f[i]]),
@@ -477,7 +481,7 @@ namespace EBSMPM
                         runs.data() + run_begins[list],
                         row_pointers.data());
     for (unsigned int i = 0; i < n; ++i)
-      if (last_lists[f[i]] == list)
+      if (last_lists[f[i]] == list && is_wanted(f[i]))
         close_row(f[i]);
   }
 

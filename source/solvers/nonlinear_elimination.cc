@@ -34,8 +34,8 @@ namespace EBSMPM
     const LA::FieldVector         &residual) const
   {
     // A function is marked in the first of its components.
-    LA::FieldVector    marks = system.make_vector();
-    const double       limit = data.large_residual * residual.linfty_norm();
+    LA::FieldVector    marks   = system.make_vector();
+    const double       limit   = data.large_residual * residual.linfty_norm();
     const unsigned int n_owned = marks.locally_owned_size() / dim;
     for (unsigned int i = 0; i < residual.locally_owned_size(); ++i)
       if (std::abs(residual.local_element(i)) > limit)
@@ -76,9 +76,9 @@ namespace EBSMPM
   NonlinearElimination<dim>::improve(DisplacementSystem<dim>  &system,
                                      const MaterialState<dim> &state,
                                      const BoundaryState<dim> &boundary,
-                                     LA::FieldVector &increment) const
+                                     LA::FieldVector          &increment) const
   {
-    const MPI_Comm  comm = system.space().communicator();
+    const MPI_Comm  comm     = system.space().communicator();
     LA::FieldVector residual = system.make_vector();
     system.assemble_residual(state, boundary, increment, residual);
 

@@ -397,8 +397,8 @@ namespace EBSMPM
       }
 
     TimerOutput::Scope scope(*timer, "Newton");
-    const double scale = force_scale;
-    const auto   result =
+    const double       scale = force_scale;
+    const auto         result =
       newton.solve(problem, u_solver, scale, tolerance, u_increment);
     report.newton_iterations += result.iterations;
     report.linear_iterations += result.linear_iterations;

@@ -71,10 +71,9 @@ namespace EBSMPM
       classify(supports, threshold, hysteresis, renewals);
 
     // Most often, nothing has changed since the last time but fractions.
-    const auto change =
-      static_cast<Change>(Utilities::MPI::max(static_cast<int>(
-                                                compare(renewals)),
-                                              mpi_communicator));
+    const auto change = static_cast<Change>(
+      Utilities::MPI::max(static_cast<int>(compare(renewals)),
+                          mpi_communicator));
     if (change == Change::functions)
       number(new_table);
     else
@@ -104,7 +103,7 @@ namespace EBSMPM
     shared_functions.update(cell_lattice);
 
     // Who was standard before? What nobody here has seen comes later.
-    const bool remember = (hysteresis > 0. && change_counter > 0);
+    const bool remember        = (hysteresis > 0. && change_counter > 0);
     const auto former_category = [&](const Function *function) {
       return remember && function != nullptr &&
                  function->category == FunctionClass::standard ?

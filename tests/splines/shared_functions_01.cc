@@ -8,7 +8,8 @@
 // -----------------------------------------------------------------------------
 
 // SharedFunctions contains all functions that several processes see, and no
-// others but those at the boundary of the grid; also after the grid has changed.
+// others but those at the boundary of the grid; also after the grid has
+// changed.
 
 #include <ebsmpm/splines/shared_functions.h>
 
@@ -71,9 +72,9 @@ test(const unsigned int n_cells)
           shared.update(lattice);
           const unsigned int level = triangulation.n_levels() - 1;
 
-          const auto mine = count_cells(triangulation, lattice, degree);
-          const auto all  = Utilities::MPI::all_gather(MPI_COMM_WORLD, mine);
-          const auto rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+          const auto mine   = count_cells(triangulation, lattice, degree);
+          const auto all    = Utilities::MPI::all_gather(MPI_COMM_WORLD, mine);
+          const auto rank   = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
           bool       missed = false, superfluous = false;
           for (const auto &entry : mine)
             {
@@ -99,8 +100,8 @@ test(const unsigned int n_cells)
           };
           deallog << dim << "-D, degree " << degree << ", level " << level
                   << ": missed " << (anywhere(missed) ? "FAILED" : "none")
-                  << ", superfluous " << (anywhere(superfluous) ? "FAILED" : "none")
-                  << std::endl;
+                  << ", superfluous "
+                  << (anywhere(superfluous) ? "FAILED" : "none") << std::endl;
         }
       triangulation.coarsen_global(1);
     }

@@ -196,8 +196,8 @@ namespace EBSMPM
                      LA::FieldVector          &residual);
 
     /**
-     * The tangent without the derivative of $\mathbf A$ in the last term, which is
-     * proportional to $\mathbf w$. It vanishes with $\mathbf w$ at the
+     * The tangent without the derivative of $\mathbf A$ in the last term, which
+     * is proportional to $\mathbf w$. It vanishes with $\mathbf w$ at the
      * solution; but where a step begins, $\mathbf w$ is as large as the
      * increment of the Dirichlet data, and the exact tangent is useless: for a
      * linear material, the predictor meets the data in one step.

@@ -72,9 +72,15 @@ namespace EBSMPM
            const unsigned int                 n_components,
            const std::vector<List>           &lists);
 
-    /** Begin anew, with a matrix of zeros. */
+    /**
+     * Begin anew, with a matrix of zeros.
+     *
+     * @param wanted for each function, whether its rows are wanted, the same on
+     *   all processes that know it; what is in the others is then undefined. A
+     *   null pointer stands for all functions. It must live until compress().
+     */
     void
-    begin();
+    begin(const std::vector<bool> *wanted = nullptr);
 
     /**
      * Add a local matrix. Lists have to be added in their order, each at most
@@ -217,6 +223,9 @@ namespace EBSMPM
     std::vector<double> open_rows;
     std::size_t         slot_size = 0;
     unsigned int        next_list = 0;
+
+    /** See begin(). */
+    const std::vector<bool> *wanted = nullptr;
 
     /** Scratch for add(): the open rows of a list. */
     std::vector<double *> row_pointers;

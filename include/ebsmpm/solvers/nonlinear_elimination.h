@@ -10,9 +10,9 @@
 #ifndef ebsmpm_solvers_nonlinear_elimination_h
 #define ebsmpm_solvers_nonlinear_elimination_h
 
-#include <ebsmpm/assembly/displacement_system.h>
-
 #include <ebsmpm/lac/types.h>
+
+#include <ebsmpm/assembly/displacement_system.h>
 
 #include <vector>
 
@@ -33,8 +33,8 @@ namespace EBSMPM
    *   R\,\mathbf r(\mathbf x)
    * @f]
    * until the residual in these rows is small (nonlinear elimination: Lanzkron,
-   * Rose and Wilkes, SIAM J. Sci. Comput. 18 (1997) 538-559; Hwang, Lin and Cai,
-   * Comput. Fluids 39 (2010)). What is found is an initial guess; if this
+   * Rose and Wilkes, SIAM J. Sci. Comput. 18 (1997) 538-559; Hwang, Lin and
+   * Cai, Comput. Fluids 39 (2010)). What is found is an initial guess; if this
    * fails, the one given is left as it was.
    *
    * Each process inverts its own rows; processes meet in the residual.

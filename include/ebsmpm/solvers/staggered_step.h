@@ -412,13 +412,13 @@ namespace EBSMPM
     AffineConstraints<double> d_constraints;
     ExtensionReport           u_extension;
 
-    CrackPartition<dim>     partition;
-    DisplacementSystem<dim> u_system;
-    DamageSystem<dim>       d_system;
-    NewtonSolver            newton;
+    CrackPartition<dim>       partition;
+    DisplacementSystem<dim>   u_system;
+    DamageSystem<dim>         d_system;
+    NewtonSolver              newton;
     NonlinearElimination<dim> elimination;
-    LinearSolver            u_solver;
-    LinearSolver            d_solver;
+    LinearSolver              u_solver;
+    LinearSolver              d_solver;
 
     LA::FieldVector    u_increment;
     LA::FieldVector    d_field;
