@@ -37,6 +37,9 @@ namespace EBSMPM
     // accepted although round-off prevents a smaller one.
     constexpr double acceptable_residual = 1e-5;
 
+    // No residual is smaller, relative to the right hand side.
+    constexpr double round_off = 1e-16;
+
     // The change of a diagonal entry, relative to it, that makes a row worth
     // correcting; the part of the rows of a process that may be corrected, and
     // their number, as this has to be quick.
@@ -116,6 +119,22 @@ namespace EBSMPM
       const Preconditioner  &P;
       const LocalCorrection &correction;
     };
+
+
+
+    /**
+     * The logarithm of the factor by which the residual was reduced; no more
+     * than what round-off allows, and not less than zero.
+     */
+    double
+    logarithmic_reduction(const double initial_residual,
+                          const double final_residual)
+    {
+      if (!(final_residual < initial_residual))
+        return 0.;
+      return std::log(1. /
+                      std::max(final_residual / initial_residual, round_off));
+    }
 
 
 
@@ -317,9 +336,11 @@ namespace EBSMPM
 
 
   unsigned int
-  LinearSolver::iterations_when_new(const double reduction) const
+  LinearSolver::iterations_when_new(const double initial_residual,
+                                    const double final_residual) const
   {
-    return std::ceil(-std::log(reduction) / reduction_when_new);
+    return std::ceil(logarithmic_reduction(initial_residual, final_residual) /
+                     reduction_when_new);
   }
 
 
@@ -441,7 +462,7 @@ namespace EBSMPM
                   b,
                   tolerance,
                   std::min(additional_data.max_iterations,
-                           iterations_when_new(relative_tolerance) +
+                           iterations_when_new(1., relative_tolerance) +
                              additional_data.refresh_iterations),
                   is_indefinite || method == Method::gmres_amg,
                   report);
@@ -450,8 +471,9 @@ namespace EBSMPM
             report.indefinite = is_indefinite;
 
             // Was this one too many?
-            const unsigned int least = iterations_when_new(
-              report.final_residual / report.initial_residual);
+            const unsigned int least =
+              iterations_when_new(report.initial_residual,
+                                  report.final_residual);
             const unsigned int excess =
               std::max(report.iterations, least) - least;
             ++n_solves;
@@ -488,9 +510,10 @@ namespace EBSMPM
       }
     report.indefinite             = report.indefinite || is_indefinite;
     const unsigned int iterations = report.iterations - iterations_before;
-    reduction_when_new =
-      std::log(report.initial_residual / report.final_residual) /
-      std::max(1U, iterations);
+    if (iterations > 0 && report.final_residual < report.initial_residual)
+      reduction_when_new =
+        logarithmic_reduction(report.initial_residual, report.final_residual) /
+        iterations;
 
     if (outcome != Outcome::converged)
       {

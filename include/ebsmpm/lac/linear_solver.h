@@ -314,11 +314,12 @@ namespace EBSMPM
     correct(const LA::SparseMatrix &A);
 
     /**
-     * Return how many iterations a new preconditioner would need to reduce the
-     * residual to a part of it, judging from its first solve.
+     * Return how many iterations a new preconditioner would need to reduce a
+     * residual to another, judging from its first solve.
      */
     unsigned int
-    iterations_when_new(const double reduction) const;
+    iterations_when_new(const double initial_residual,
+                        const double final_residual) const;
 
     /**
      * Iterate until the residual is small enough or the number of iterations

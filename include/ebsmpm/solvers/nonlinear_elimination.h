@@ -76,7 +76,8 @@ namespace EBSMPM
       const AdditionalData &data = AdditionalData());
 
     /**
-     * Improve @p increment. Collective.
+     * Improve @p increment. Raises ExcSolverFailure if a point is turned inside
+     * out by the guess itself. Collective.
      *
      * Return the number of iterations; zero if nothing has been done.
      */
