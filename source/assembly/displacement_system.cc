@@ -174,10 +174,8 @@ namespace EBSMPM
                                             const LA::FieldVector    &increment,
                                             LA::FieldVector          &residual)
   {
-    tangent.begin();
-    assemble(
-      AssemblyTask::tangent, state, boundary, increment, residual, &tangent);
-    tangent.compress();
+    assemble_matrix(
+      AssemblyTask::tangent, state, boundary, increment, residual);
   }
 
 
@@ -193,15 +191,8 @@ namespace EBSMPM
     AssertDimension(wanted.size(),
                     functions->locally_owned_size() +
                       functions->n_ghost_indices());
-    tangent.begin(&wanted);
-    assemble(AssemblyTask::tangent,
-             state,
-             boundary,
-             increment,
-             residual,
-             &tangent,
-             &wanted);
-    tangent.compress();
+    assemble_matrix(
+      AssemblyTask::tangent, state, boundary, increment, residual, &wanted);
   }
 
 
@@ -214,9 +205,23 @@ namespace EBSMPM
     const LA::FieldVector    &increment,
     LA::FieldVector          &residual)
   {
-    tangent.begin();
-    assemble(
-      AssemblyTask::predictor, state, boundary, increment, residual, &tangent);
+    assemble_matrix(
+      AssemblyTask::predictor, state, boundary, increment, residual);
+  }
+
+
+
+  template <int dim>
+  void
+  DisplacementSystem<dim>::assemble_matrix(const AssemblyTask        task,
+                                           const MaterialState<dim> &state,
+                                           const BoundaryState<dim> &boundary,
+                                           const LA::FieldVector    &increment,
+                                           LA::FieldVector          &residual,
+                                           const std::vector<bool>  *wanted)
+  {
+    tangent.begin(wanted);
+    assemble(task, state, boundary, increment, residual, &tangent, wanted);
     tangent.compress();
   }
 

@@ -313,7 +313,6 @@ namespace EBSMPM
   void
   LinearSolver::correct(const LA::SparseMatrix &A)
   {
-    correction.clear();
     LA::Vector today(A.locally_owned_range_indices(), A.get_mpi_communicator());
     LA::Vector former(today);
     copy_diagonal(A, today);

@@ -67,17 +67,9 @@ namespace EBSMPM
     , own_rank(
         Utilities::MPI::this_mpi_process(get_mpi_communicator(triangulation)))
     , cache(triangulation, mapping)
-    , outdated(true)
+    , watch(triangulation)
     , absolute_tolerance(0)
   {
-    // A grid that is merely distributed in a different way does not count as
-    // changed.
-    const auto mark = [this]() { this->outdated = true; };
-    connections.emplace_back(triangulation.signals.any_change.connect(mark));
-    connections.emplace_back(
-      triangulation.signals.post_distributed_repartition.connect(mark));
-    connections.emplace_back(
-      triangulation.signals.post_distributed_load.connect(mark));
     update();
   }
 
@@ -88,12 +80,12 @@ namespace EBSMPM
   CellLocator<dim>::update()
   {
     const MPI_Comm comm = get_mpi_communicator(triangulation);
-    if (Utilities::MPI::max(outdated ? 1u : 0u, comm) == 0)
+    if (Utilities::MPI::max(watch.has_changed() ? 1u : 0u, comm) == 0)
       return;
     // The locator may be older than the grid, which is then still empty.
     if (triangulation.n_levels() == 0)
       return;
-    outdated = false;
+    watch.reset();
     cache.mark_for_update();
 
     double                    smallest = std::numeric_limits<double>::max();

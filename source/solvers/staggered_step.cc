@@ -204,16 +204,16 @@ namespace EBSMPM
 
     const auto update_partition = [&]() {
       TimerOutput::Scope scope(*timer, "crack partition");
-      return partition.update(points,
-                              boundary_points,
-                              current_volume,
-                              state.damage,
-                              labels,
-                              boundary_labels);
+      const bool         changed = partition.update(points,
+                                            boundary_points,
+                                            current_volume,
+                                            state.damage,
+                                            labels,
+                                            boundary_labels);
+      space_is_current           = space_is_current && !changed;
+      return changed;
     };
     bool partition_changed = data.partition && update_partition();
-    if (partition_changed)
-      space_is_current = false;
 
     const auto begin_increment = [&]() {
       u_increment.reinit(0);
@@ -265,7 +265,6 @@ namespace EBSMPM
                 update_partition())
               {
                 partition_changed = true;
-                space_is_current  = false;
                 ++report.rebuilds;
               }
           }

@@ -90,6 +90,23 @@ namespace EBSMPM
 
 
   template <int dim>
+  FunctionKey<dim>
+  CartesianLattice<dim>::cell_function(const Index       &cell_index,
+                                       const unsigned int level,
+                                       const unsigned int degree,
+                                       const unsigned int i) const
+  {
+    FunctionKey<dim> result;
+    result.level = level;
+    result.index = cell_index;
+    for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= degree + 1)
+      result.index[d] += rest % (degree + 1);
+    return result;
+  }
+
+
+
+  template <int dim>
   Point<dim>
   CartesianLattice<dim>::greville_point(const FunctionKey<dim> &key,
                                         const unsigned int      degree) const

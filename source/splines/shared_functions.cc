@@ -20,14 +20,8 @@ namespace EBSMPM
                                         const unsigned int        degree)
     : triangulation(triangulation)
     , degree(degree)
-  {
-    const auto mark = [this]() { this->outdated = true; };
-    connections.emplace_back(triangulation.signals.any_change.connect(mark));
-    connections.emplace_back(
-      triangulation.signals.post_distributed_repartition.connect(mark));
-    connections.emplace_back(
-      triangulation.signals.post_distributed_load.connect(mark));
-  }
+    , watch(triangulation)
+  {}
 
 
 
@@ -35,9 +29,9 @@ namespace EBSMPM
   void
   SharedFunctions<dim>::update(const CartesianLattice<dim> &lattice)
   {
-    if (!outdated)
+    if (!watch.has_changed())
       return;
-    outdated = false;
+    watch.reset();
 
     // How many cells of its support are ours?
     const unsigned int n_cells =
@@ -49,14 +43,7 @@ namespace EBSMPM
         {
           const auto index = lattice.cell_index(cell);
           for (unsigned int i = 0; i < n_cells; ++i)
-            {
-              FunctionKey<dim> key;
-              key.level = cell->level();
-              for (unsigned int d = 0, rest = i; d < dim;
-                   ++d, rest /= degree + 1)
-                key.index[d] = index[d] + rest % (degree + 1);
-              ++n_owned[key];
-            }
+            ++n_owned[lattice.cell_function(index, cell->level(), degree, i)];
         }
 
     own.clear();

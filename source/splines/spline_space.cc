@@ -367,12 +367,7 @@ namespace EBSMPM
     const unsigned int                           i) const
   {
     AssertIndexRange(i, n_functions_per_cell());
-    Key result;
-    result.level = level;
-    result.index = cell_index;
-    for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= p + 1)
-      result.index[d] += rest % (p + 1);
-    return result;
+    return cell_lattice.cell_function(cell_index, level, p, i);
   }
 
 

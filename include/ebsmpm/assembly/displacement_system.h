@@ -291,6 +291,18 @@ namespace EBSMPM
 
   private:
     /**
+     * Compute the residual and #tangent: of all functions, if @p wanted is a
+     * null pointer.
+     */
+    void
+    assemble_matrix(const AssemblyTask        task,
+                    const MaterialState<dim> &state,
+                    const BoundaryState<dim> &boundary,
+                    const LA::FieldVector    &increment,
+                    LA::FieldVector          &residual,
+                    const std::vector<bool>  *wanted = nullptr);
+
+    /**
      * Compute the residual, or the tangent as well; @p matrix may be a null
      * pointer if it is not wanted, and so may @p wanted if all functions are.
      */

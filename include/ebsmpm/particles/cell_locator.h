@@ -10,7 +10,7 @@
 #ifndef ebsmpm_particles_cell_locator_h
 #define ebsmpm_particles_cell_locator_h
 
-#include <ebsmpm/base/config.h>
+#include <ebsmpm/base/grid_watch.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
@@ -19,8 +19,6 @@
 
 #include <deal.II/grid/grid_tools_cache.h>
 #include <deal.II/grid/tria.h>
-
-#include <boost/signals2/connection.hpp>
 
 #include <array>
 #include <string>
@@ -163,9 +161,7 @@ namespace EBSMPM
     /**
      * Whether the grid has changed since the last call of update().
      */
-    bool outdated;
-
-    std::vector<boost::signals2::scoped_connection> connections;
+    GridWatch watch;
 
     /**
      * The absolute tolerance.

@@ -61,6 +61,16 @@ namespace EBSMPM
     cell_extents(const unsigned int level) const;
 
     /**
+     * Return function @p i, in lexicographic order, of those of degree
+     * @p degree that a cell sees (in part 0).
+     */
+    FunctionKey<dim>
+    cell_function(const Index       &cell_index,
+                  const unsigned int level,
+                  const unsigned int degree,
+                  const unsigned int i) const;
+
+    /**
      * Return the centre of the support of a B-spline of degree @p degree (its
      * Greville point).
      */

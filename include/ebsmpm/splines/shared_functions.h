@@ -10,15 +10,14 @@
 #ifndef ebsmpm_splines_shared_functions_h
 #define ebsmpm_splines_shared_functions_h
 
+#include <ebsmpm/base/grid_watch.h>
+
 #include <ebsmpm/splines/cartesian_lattice.h>
 #include <ebsmpm/splines/function_key.h>
 
 #include <deal.II/grid/tria.h>
 
-#include <boost/signals2/connection.hpp>
-
 #include <unordered_set>
-#include <vector>
 
 namespace EBSMPM
 {
@@ -61,8 +60,7 @@ namespace EBSMPM
     const Triangulation<dim> &triangulation;
     const unsigned int        degree;
 
-    bool                                            outdated = true;
-    std::vector<boost::signals2::scoped_connection> connections;
+    GridWatch watch;
 
     /**
      * The others, in part 0: a twin has the support of its function.

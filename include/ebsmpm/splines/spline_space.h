@@ -63,8 +63,8 @@ namespace EBSMPM
    *
    * The numbering does not depend on the order in which cells or points are
    * visited, and the set of functions and their classes not on the number of
-   * processes. reinit() is collective; its cost is that of a few messages of
-   * the size of the table handed over.
+   * processes. reinit() is collective; it sends a few messages about functions
+   * that several processes see, and about all of them if anything has changed.
    */
   template <int dim>
   class SplineSpace
