@@ -10,6 +10,7 @@
 #include <ebsmpm/base/exceptions.h>
 
 #include <ebsmpm/lac/amg_hierarchy.h>
+#include <ebsmpm/lac/diagonal.h>
 #include <ebsmpm/lac/incomplete_cholesky.h>
 #include <ebsmpm/lac/klu_factorization.h>
 #include <ebsmpm/lac/linear_solver.h>
@@ -20,9 +21,6 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
-
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -134,15 +132,6 @@ namespace EBSMPM
         return 0.;
       return std::log(1. /
                       std::max(final_residual / initial_residual, round_off));
-    }
-
-
-
-    void
-    copy_diagonal(const LA::SparseMatrix &A, LA::Vector &diagonal)
-    {
-      Epetra_Vector copy(View, A.trilinos_matrix().RowMap(), diagonal.begin());
-      A.trilinos_matrix().ExtractDiagonalCopy(copy);
     }
   } // namespace
 

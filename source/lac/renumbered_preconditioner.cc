@@ -7,9 +7,8 @@
 //
 // -----------------------------------------------------------------------------
 
+#include <ebsmpm/lac/diagonal.h>
 #include <ebsmpm/lac/renumbered_preconditioner.h>
-
-#include <Epetra_CrsMatrix.h>
 
 namespace EBSMPM
 {
@@ -22,9 +21,9 @@ namespace EBSMPM
     , former_src(former_rows_owned, A.get_mpi_communicator())
     , former_dst(former_src)
   {
-    const Epetra_CrsMatrix &matrix = A.trilinos_matrix();
-    Epetra_Vector           diagonal(matrix.RowMap(), false);
-    matrix.ExtractDiagonalCopy(diagonal);
+    LA::Vector diagonal(A.locally_owned_range_indices(),
+                        A.get_mpi_communicator());
+    copy_diagonal(A, diagonal);
 
     std::vector<int> former_numbers;
     for (unsigned int i = 0; i < former_rows.locally_owned_size(); ++i)
@@ -38,15 +37,16 @@ namespace EBSMPM
         else
           {
             new_rows.push_back(i);
-            inverse_diagonal.push_back(diagonal[i] > 0. ? 1. / diagonal[i] :
-                                                          1.);
+            const double entry = diagonal.begin()[i];
+            inverse_diagonal.push_back(entry > 0. ? 1. / entry : 1.);
           }
       }
-    known_map = std::make_unique<Epetra_Map>(-1,
-                                             former_numbers.size(),
-                                             former_numbers.data(),
-                                             0,
-                                             matrix.RowMap().Comm());
+    known_map =
+      std::make_unique<Epetra_Map>(-1,
+                                   former_numbers.size(),
+                                   former_numbers.data(),
+                                   0,
+                                   former_src.trilinos_partitioner().Comm());
     to_former =
       std::make_unique<Epetra_Export>(*known_map,
                                       former_src.trilinos_partitioner());

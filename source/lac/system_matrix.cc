@@ -11,9 +11,7 @@
 
 #include <ebsmpm/lac/system_matrix.h>
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
-
+#include <Epetra_CrsGraph.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
 
@@ -78,11 +76,11 @@ namespace EBSMPM
     const Occurrences occurrences(global_functions.size(),
                                   list_functions,
                                   list_begins);
-    build_matrix(functions, occurrences);
-    find_runs(functions, occurrences);
-    find_shuffled_rows();
+    find_rows(occurrences);
+    exchange_rows(functions);
+    build_matrix(functions);
+    find_runs(occurrences);
     assign_slots(occurrences);
-    set_up_messages(functions);
     return true;
   }
 
@@ -125,98 +123,95 @@ namespace EBSMPM
 
 
   void
-  SystemMatrix::build_matrix(const Utilities::MPI::Partitioner &functions,
-                             const Occurrences                 &occurrences)
+  SystemMatrix::find_rows(const Occurrences &occurrences)
   {
-    const unsigned int nc      = n_components;
-    const unsigned int n_known = global_functions.size();
-
-    // Couple functions first, and their components afterwards.
-    const IndexSet &owned    = functions.locally_owned_range();
-    IndexSet        relevant = owned;
-    relevant.add_indices(functions.ghost_indices());
-    DynamicSparsityPattern                            coupling(functions.size(),
-                                    functions.size(),
-                                    relevant);
-    std::vector<types::global_dof_index>              row;
-    std::vector<std::vector<types::global_dof_index>> ghost_rows;
+    const unsigned int        n_known = global_functions.size();
     std::vector<unsigned int> seen_by(n_known, numbers::invalid_unsigned_int);
+    row_columns.clear();
+    row_begins.assign(1, 0);
     for (unsigned int f = 0; f < n_known; ++f)
       {
-        row.clear();
         occurrences.visit(f, [&](const unsigned int l, const unsigned int) {
           for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
             if (seen_by[list_functions[k]] != f)
               {
                 seen_by[list_functions[k]] = f;
-                row.push_back(global_functions[list_functions[k]]);
+                row_columns.push_back(list_functions[k]);
               }
         });
-        std::sort(row.begin(), row.end());
-        coupling.add_entries(global_functions[f], row.begin(), row.end(), true);
-        if (f >= n_owned)
-          ghost_rows.push_back(row);
+        std::sort(row_columns.begin() + row_begins.back(), row_columns.end());
+        row_begins.push_back(row_columns.size());
       }
-    SparsityTools::distribute_sparsity_pattern(coupling,
-                                               owned,
-                                               functions.get_mpi_communicator(),
-                                               relevant);
-
-    // Rows of other processes have the columns that we know.
-    row_functions.clear();
-    row_functions_begins.assign(1, 0);
-    for (unsigned int f = 0; f < n_known; ++f)
-      {
-        if (f < n_owned)
-          for (auto entry = coupling.begin(global_functions[f]);
-               entry != coupling.end(global_functions[f]);
-               ++entry)
-            row_functions.push_back(entry->column());
-        else
-          row_functions.insert(row_functions.end(),
-                               ghost_rows[f - n_owned].begin(),
-                               ghost_rows[f - n_owned].end());
-        row_functions_begins.push_back(row_functions.size());
-      }
-
-    IndexSet rows(nc * functions.size());
-    if (n_owned > 0)
-      rows.add_range(nc * global_functions[0],
-                     nc * (global_functions[0] + n_owned));
-    rows.compress();
-    DynamicSparsityPattern sparsity(rows.size(), rows.size(), rows);
-    for (unsigned int f = 0; f < n_owned; ++f)
-      {
-        row.clear();
-        for (std::size_t k = row_functions_begins[f];
-             k < row_functions_begins[f + 1];
-             ++k)
-          for (unsigned int c = 0; c < nc; ++c)
-            row.push_back(nc * row_functions[k] + c);
-        for (unsigned int c = 0; c < nc; ++c)
-          sparsity.add_entries(nc * global_functions[f] + c,
-                               row.begin(),
-                               row.end(),
-                               true);
-      }
-    sparse_matrix.reinit(
-      rows, rows, sparsity, functions.get_mpi_communicator(), false);
-
-    const Epetra_CrsMatrix &epetra = sparse_matrix.trilinos_matrix();
-    int                    *begins, *column_numbers;
-    const int               ierr =
-      epetra.ExtractCrsDataPointers(begins, column_numbers, entries);
-    AssertThrow(ierr == 0, ExcInternalError());
-    row_begins = begins;
   }
 
 
 
   void
-  SystemMatrix::find_runs(const Utilities::MPI::Partitioner &functions,
-                          const Occurrences                 &occurrences)
+  SystemMatrix::build_matrix(const Utilities::MPI::Partitioner &functions)
   {
-    // The columns of a list, row by row.
+    using Number          = TrilinosWrappers::types::int_type;
+    const unsigned int nc = n_components;
+
+    // What this process owns comes first in the numbers of columns, and
+    // everything else, ascending, behind: as Epetra wants it, to whom numbers
+    // of columns need not be explained then.
+    IndexSet rows(nc * functions.size());
+    if (n_owned > 0)
+      rows.add_range(nc * global_functions[0],
+                     nc * (global_functions[0] + n_owned));
+    rows.compress();
+    const Epetra_Map row_map =
+      rows.make_trilinos_map(functions.get_mpi_communicator(), false);
+
+    std::vector<Number> numbers_of_columns;
+    const auto add_columns = [&](const types::global_dof_index function) {
+      for (unsigned int c = 0; c < nc; ++c)
+        numbers_of_columns.push_back(nc * function + c);
+    };
+    for (unsigned int f = 0; f < n_owned; ++f)
+      add_columns(global_functions[f]);
+    for (const auto function : foreign_columns)
+      add_columns(function);
+    const Epetra_Map column_map(static_cast<Number>(-1),
+                                static_cast<int>(numbers_of_columns.size()),
+                                numbers_of_columns.data(),
+                                0,
+                                row_map.Comm());
+
+    std::vector<int> lengths;
+    for (unsigned int f = 0; f < n_owned; ++f)
+      lengths.insert(lengths.end(), nc, nc * row_length(f));
+    Epetra_CrsGraph  graph(Copy, row_map, column_map, lengths.data(), true);
+    std::vector<int> row;
+    int              ierr = 0;
+    for (unsigned int f = 0; f < n_owned; ++f)
+      {
+        row.clear();
+        for (std::size_t k = row_begins[f]; k < row_begins[f + 1]; ++k)
+          for (unsigned int c = 0; c < nc; ++c)
+            row.push_back(nc * row_columns[k] + c);
+        for (unsigned int c = 0; c < nc; ++c)
+          ierr |= graph.InsertMyIndices(nc * f + c, row.size(), row.data());
+      }
+    ierr |= graph.FillComplete();
+    ierr |= graph.OptimizeStorage();
+    AssertThrow(ierr == 0, ExcInternalError());
+    sparse_matrix.reinit(Epetra_CrsMatrix(Copy, graph), false);
+
+    int *begins, *column_numbers;
+    ierr =
+      sparse_matrix.trilinos_matrix().ExtractCrsDataPointers(begins,
+                                                             column_numbers,
+                                                             entries);
+    AssertThrow(ierr == 0, ExcInternalError());
+  }
+
+
+
+  void
+  SystemMatrix::find_runs(const Occurrences &occurrences)
+  {
+    // The columns of a list, row by row, as places in this row.
     const unsigned int n_lists = list_begins.size() - 1;
     const auto         size_of = [&](const unsigned int l) {
       return list_begins[l + 1] - list_begins[l];
@@ -224,23 +219,18 @@ namespace EBSMPM
     std::vector<std::size_t> begins(1, 0);
     for (unsigned int l = 0; l < n_lists; ++l)
       begins.push_back(begins.back() + size_of(l) * size_of(l));
-    std::vector<std::uint16_t> columns(begins.back());
-    std::vector<std::uint16_t> column_of(global_functions.size());
+    std::vector<std::uint16_t> places(begins.back());
+    std::vector<std::uint16_t> place_of(n_owned + foreign_columns.n_elements());
     for (unsigned int f = 0; f < global_functions.size(); ++f)
       {
-        const std::size_t first = row_functions_begins[f];
-        const std::size_t width = row_functions_begins[f + 1] - first;
-        AssertThrow(width <= std::numeric_limits<std::uint16_t>::max(),
+        AssertThrow(row_length(f) <= std::numeric_limits<std::uint16_t>::max(),
                     ExcInternalError());
-        // Functions of other processes that only others see are not known here.
-        for (unsigned int c = 0; c < width; ++c)
-          if (functions.in_local_range(row_functions[first + c]) ||
-              functions.is_ghost_entry(row_functions[first + c]))
-            column_of[functions.global_to_local(row_functions[first + c])] = c;
+        for (std::size_t k = row_begins[f]; k < row_begins[f + 1]; ++k)
+          place_of[row_columns[k]] = k - row_begins[f];
         occurrences.visit(f, [&](const unsigned int l, const unsigned int i) {
           for (unsigned int j = 0; j < size_of(l); ++j)
-            columns[begins[l] + i * size_of(l) + j] =
-              column_of[list_functions[list_begins[l] + j]];
+            places[begins[l] + i * size_of(l) + j] =
+              place_of[columns[list_functions[list_begins[l] + j]]];
         });
       }
 
@@ -249,57 +239,14 @@ namespace EBSMPM
     run_begins.assign(1, 0);
     for (unsigned int l = 0; l < n_lists; ++l)
       {
-        const std::uint16_t *column = columns.data() + begins[l];
+        const std::uint16_t *place = places.data() + begins[l];
         for (unsigned int i = 0; i < size_of(l); ++i)
-          for (unsigned int j = 0; j < size_of(l); ++j, ++column)
-            if (j > 0 && column[0] == column[-1] + 1)
+          for (unsigned int j = 0; j < size_of(l); ++j, ++place)
+            if (j > 0 && place[0] == place[-1] + 1)
               ++runs.back().size;
             else
-              runs.push_back({column[0], 1});
+              runs.push_back({place[0], 1});
         run_begins.push_back(runs.size());
-      }
-  }
-
-
-
-  void
-  SystemMatrix::find_shuffled_rows()
-  {
-    // The columns of a row of Epetra's matrix are sorted by their local number,
-    // except for those of other processes if there is more than one of these:
-    // it sorts them by process, with a sort that is not stable.
-    const Epetra_CrsMatrix &epetra = sparse_matrix.trilinos_matrix();
-    int                    *begins, *column_numbers;
-    double                 *values;
-    epetra.ExtractCrsDataPointers(begins, column_numbers, values);
-
-    const unsigned int nc = n_components;
-    std::vector<int>   place_of(epetra.NumMyCols());
-    shuffled_begins.assign(n_owned, numbers::invalid_unsigned_int);
-    shuffled_places.clear();
-    for (unsigned int f = 0; f < n_owned; ++f)
-      {
-        const int first = begins[nc * f];
-        for (int k = first; k < begins[nc * f + 1]; ++k)
-          place_of[column_numbers[k]] = k - first;
-
-        const unsigned int begin       = shuffled_places.size();
-        bool               is_shuffled = false;
-        for (std::size_t k = row_functions_begins[f];
-             k < row_functions_begins[f + 1];
-             ++k)
-          for (unsigned int b = 0; b < nc; ++b)
-            {
-              const int place = place_of[epetra.LCID(
-                static_cast<int>(nc * row_functions[k] + b))];
-              is_shuffled |=
-                place != static_cast<int>(shuffled_places.size() - begin);
-              shuffled_places.push_back(place);
-            }
-        if (is_shuffled)
-          shuffled_begins[f] = begin;
-        else
-          shuffled_places.resize(begin);
       }
   }
 
@@ -315,8 +262,7 @@ namespace EBSMPM
     last_lists.assign(n_known, 0);
     for (unsigned int f = 0; f < n_known; ++f)
       {
-        width         = std::max(width,
-                         row_functions_begins[f + 1] - row_functions_begins[f]);
+        width         = std::max<std::size_t>(width, row_length(f));
         bool is_first = true;
         occurrences.visit(f, [&](const unsigned int l, const unsigned int) {
           if (is_first)
@@ -361,9 +307,7 @@ namespace EBSMPM
     next_list = 0;
     for (unsigned int f = 0; f < n_owned; ++f)
       if (last_lists[f] < first_lists[f])
-        std::fill(entries + row_begins[n_components * f],
-                  entries + row_begins[n_components * (f + 1)],
-                  0.);
+        std::fill_n(row(f), n_components * n_components * row_length(f), 0.);
   }
 
 
@@ -390,26 +334,30 @@ namespace EBSMPM
 
 
 
-  void
-  SystemMatrix::close_row(const unsigned int f)
+  double *
+  SystemMatrix::row(const unsigned int function)
   {
-    const unsigned int nc = n_components;
-    const std::size_t  width =
-      row_functions_begins[f + 1] - row_functions_begins[f];
-    const int *places =
-      (f < n_owned && shuffled_begins[f] != numbers::invalid_unsigned_int) ?
-        shuffled_places.data() + shuffled_begins[f] :
-        nullptr;
+    const unsigned int block_size = n_components * n_components;
+    return function < n_owned ?
+             entries + block_size * row_begins[function] :
+             ghost_entries.data() +
+               block_size * (row_begins[function] - row_begins[n_owned]);
+  }
+
+
+
+  void
+  SystemMatrix::close_row(const unsigned int function)
+  {
+    const unsigned int nc    = n_components;
+    const unsigned int width = row_length(function);
+    double            *to    = row(function);
     for (unsigned int a = 0; a < nc; ++a)
       {
-        const double *from = open_row(f) + nc * a;
-        double       *to   = (f < n_owned) ?
-                               entries + row_begins[nc * f + a] :
-                               ghost_entries.data() + ghost_row_begins[f - n_owned] +
-                         a * nc * width;
-        for (std::size_t k = 0; k < width; ++k, from += nc * nc)
+        const double *from = open_row(function) + nc * a;
+        for (unsigned int k = 0; k < width; ++k, from += nc * nc)
           for (unsigned int b = 0; b < nc; ++b)
-            to[places == nullptr ? nc * k + b : places[nc * k + b]] = from[b];
+            *to++ = from[b];
       }
   }
 
@@ -468,10 +416,7 @@ namespace EBSMPM
       {
         row_pointers[i] = open_row(f[i]);
         if (first_lists[f[i]] == list && is_wanted(f[i]))
-          std::fill_n(row_pointers[i],
-                      block_size * (row_functions_begins[f[i] + 1] -
-                                    row_functions_begins[f[i]]),
-                      0.);
+          std::fill_n(row_pointers[i], block_size * row_length(f[i]), 0.);
       }
     if (values != nullptr)
       run_best<AddRuns>(n,
@@ -499,16 +444,14 @@ namespace EBSMPM
   SystemMatrix::memory_consumption() const
   {
     return list_functions.capacity() * sizeof(unsigned int) +
-           (row_functions.capacity() + global_functions.capacity()) *
-             sizeof(types::global_dof_index) +
+           global_functions.capacity() * sizeof(types::global_dof_index) +
+           foreign_columns.memory_consumption() +
            runs.capacity() * sizeof(Run) +
-           (slots.capacity() + first_lists.capacity() + last_lists.capacity() +
-            shuffled_begins.capacity()) *
+           (columns.capacity() + row_columns.capacity() + slots.capacity() +
+            first_lists.capacity() + last_lists.capacity()) *
              sizeof(unsigned int) +
-           shuffled_places.capacity() * sizeof(int) +
            (list_begins.capacity() + run_begins.capacity() +
-            row_functions_begins.capacity() + ghost_row_begins.capacity() +
-            arrival_places.capacity()) *
+            row_begins.capacity() + arrival_places.capacity()) *
              sizeof(std::size_t) +
            row_pointers.capacity() * sizeof(double *) +
            (open_rows.capacity() + ghost_entries.capacity() +

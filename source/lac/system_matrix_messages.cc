@@ -13,78 +13,188 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_CrsMatrix.h>
-
+#include <algorithm>
+#include <iterator>
 #include <map>
+#include <utility>
 
 namespace EBSMPM
 {
-  void
-  SystemMatrix::set_up_messages(const Utilities::MPI::Partitioner &functions)
+  /** The rows that other processes have sent. */
+  class SystemMatrix::ArrivingRows
   {
-    const unsigned int nc = n_components;
+  public:
+    using Numbers = std::vector<types::global_dof_index>;
 
+    /**
+     * @param messages by the rank of the sender; for each row the function,
+     *   the number of columns, and the columns
+     */
+    explicit ArrivingRows(std::map<unsigned int, Numbers> &&messages)
+      : messages(std::move(messages))
+    {}
+
+    /** Call <tt>visit(rank, function, first column, end of columns)</tt>. */
+    template <typename Visitor>
+    void
+    visit(const Visitor &visitor) const
+    {
+      for (const auto &message : messages)
+        for (auto row = message.second.begin(); row != message.second.end();
+             row += 2 + row[1])
+          visitor(message.first, row[0], row + 2, row + 2 + row[1]);
+    }
+
+  private:
+    std::map<unsigned int, Numbers> messages;
+  };
+
+
+
+  void
+  SystemMatrix::exchange_rows(const Utilities::MPI::Partitioner &functions)
+  {
     // The ghosts of a process follow each other.
-    ghost_row_begins.assign(1, 0);
+    const unsigned int block_size = n_components * n_components;
+    std::map<unsigned int, ArrivingRows::Numbers> messages;
     outgoing.clear();
-    std::map<unsigned int, std::vector<types::global_dof_index>> patterns;
-    unsigned int                                                 g = 0;
+    ghost_entries.assign(block_size * (row_begins.back() - row_begins[n_owned]),
+                         0.);
+    unsigned int f = n_owned;
     for (const auto &target : functions.ghost_targets())
       {
-        const std::size_t begin   = ghost_row_begins.back();
-        auto             &pattern = patterns[target.first];
-        for (unsigned int k = 0; k < target.second; ++k, ++g)
+        const std::size_t begin   = row_begins[f];
+        auto             &message = messages[target.first];
+        for (unsigned int g = 0; g < target.second; ++g, ++f)
           {
-            const std::size_t row_begin = row_functions_begins[n_owned + g];
-            const std::size_t row_end   = row_functions_begins[n_owned + g + 1];
-            pattern.push_back(global_functions[n_owned + g]);
-            pattern.push_back(row_end - row_begin);
-            pattern.insert(pattern.end(),
-                           row_functions.begin() + row_begin,
-                           row_functions.begin() + row_end);
-            ghost_row_begins.push_back(ghost_row_begins.back() +
-                                       nc * nc * (row_end - row_begin));
+            message.push_back(global_functions[f]);
+            message.push_back(row_length(f));
+            for (std::size_t k = row_begins[f]; k < row_begins[f + 1]; ++k)
+              message.push_back(global_functions[row_columns[k]]);
           }
-        outgoing.push_back(
-          {target.first, begin, ghost_row_begins.back() - begin});
+        outgoing.push_back({target.first,
+                            block_size * (begin - row_begins[n_owned]),
+                            block_size * (row_begins[f] - begin)});
       }
-    AssertDimension(n_owned + g, global_functions.size());
-    ghost_entries.assign(ghost_row_begins.back(), 0.);
+    AssertDimension(f, global_functions.size());
 
-    const Epetra_CrsMatrix &epetra = sparse_matrix.trilinos_matrix();
-    int                    *begins, *column_numbers;
-    double                 *values;
-    epetra.ExtractCrsDataPointers(begins, column_numbers, values);
-    std::vector<int> place_of(epetra.NumMyCols());
+    const ArrivingRows arriving_rows(
+      Utilities::MPI::some_to_some(functions.get_mpi_communicator(), messages));
+    number_columns(functions, arriving_rows);
+    add_rows(functions, arriving_rows);
+    find_arrival_places(functions, arriving_rows);
+  }
 
+
+
+  void
+  SystemMatrix::number_columns(const Utilities::MPI::Partitioner &functions,
+                               const ArrivingRows                &arriving_rows)
+  {
+    // They include functions that only other processes know.
+    std::vector<types::global_dof_index> foreign;
+    arriving_rows.visit([&](const auto,
+                            const auto,
+                            const auto begin,
+                            const auto end) {
+      std::copy_if(begin, end, std::back_inserter(foreign), [&](const auto g) {
+        return !functions.in_local_range(g);
+      });
+    });
+    std::sort(foreign.begin(), foreign.end());
+    foreign_columns = functions.ghost_indices();
+    foreign_columns.add_indices(foreign.begin(), foreign.end());
+    foreign_columns.compress();
+
+    columns.clear();
+    for (const auto g : global_functions)
+      columns.push_back(column(functions, g));
+  }
+
+
+
+  unsigned int
+  SystemMatrix::column(const Utilities::MPI::Partitioner &functions,
+                       const types::global_dof_index      function) const
+  {
+    return functions.in_local_range(function) ?
+             functions.global_to_local(function) :
+             n_owned + foreign_columns.index_within_set(function);
+  }
+
+
+
+  void
+  SystemMatrix::add_rows(const Utilities::MPI::Partitioner &functions,
+                         const ArrivingRows                &arriving_rows)
+  {
+    std::vector<std::pair<unsigned int, unsigned int>> arriving_columns;
+    arriving_rows.visit(
+      [&](const auto, const auto g, const auto begin, const auto end) {
+        for (auto c = begin; c != end; ++c)
+          arriving_columns.emplace_back(functions.global_to_local(g),
+                                        column(functions, *c));
+      });
+    std::sort(arriving_columns.begin(), arriving_columns.end());
+
+    std::vector<unsigned int> row_functions;
+    std::vector<std::size_t>  row_functions_begins(1, 0);
+    row_functions.swap(row_columns);
+    row_functions_begins.swap(row_begins);
+    auto arriving = arriving_columns.begin();
+    for (unsigned int f = 0; f < global_functions.size(); ++f)
+      {
+        // Columns are in the order of functions.
+        for (std::size_t k = row_functions_begins[f];
+             k < row_functions_begins[f + 1];
+             ++k)
+          row_columns.push_back(columns[row_functions[k]]);
+
+        if (arriving != arriving_columns.end() && arriving->first == f)
+          {
+            for (; arriving != arriving_columns.end() && arriving->first == f;
+                 ++arriving)
+              row_columns.push_back(arriving->second);
+            const auto begin = row_columns.begin() + row_begins.back();
+            std::sort(begin, row_columns.end());
+            row_columns.erase(std::unique(begin, row_columns.end()),
+                              row_columns.end());
+          }
+        row_begins.push_back(row_columns.size());
+      }
+  }
+
+
+
+  void
+  SystemMatrix::find_arrival_places(
+    const Utilities::MPI::Partitioner &functions,
+    const ArrivingRows                &arriving_rows)
+  {
+    const unsigned int nc = n_components;
     arrival_places.clear();
     incoming.clear();
-    for (const auto &message :
-         Utilities::MPI::some_to_some(functions.get_mpi_communicator(),
-                                      patterns))
-      {
-        const std::size_t begin = arrival_places.size();
-        const auto       &data  = message.second;
-        for (std::size_t k = 0; k < data.size();)
-          {
-            const unsigned int f         = functions.global_to_local(data[k]);
-            const std::size_t  n_columns = data[k + 1];
-            k += 2;
-            for (unsigned int a = 0; a < nc; ++a)
-              {
-                const int row_begin = begins[nc * f + a];
-                for (int c = row_begin; c < begins[nc * f + a + 1]; ++c)
-                  place_of[column_numbers[c]] = c;
-                for (std::size_t j = 0; j < n_columns; ++j)
-                  for (unsigned int b = 0; b < nc; ++b)
-                    arrival_places.push_back(place_of[epetra.LCID(
-                      static_cast<int>(nc * data[k + j] + b))]);
-              }
-            k += n_columns;
-          }
-        incoming.push_back(
-          {message.first, begin, arrival_places.size() - begin});
-      }
+    std::vector<std::size_t> places;
+    arriving_rows.visit(
+      [&](const auto rank, const auto g, const auto begin, const auto end) {
+        const unsigned int f         = functions.global_to_local(g);
+        const auto         row_begin = row_columns.begin() + row_begins[f];
+        const auto         row_end   = row_columns.begin() + row_begins[f + 1];
+        places.clear();
+        for (auto c = begin; c != end; ++c)
+          places.push_back(
+            std::lower_bound(row_begin, row_end, column(functions, *c)) -
+            row_begin);
+
+        if (incoming.empty() || incoming.back().rank != rank)
+          incoming.push_back({rank, arrival_places.size(), 0});
+        for (unsigned int a = 0; a < nc; ++a)
+          for (const std::size_t place : places)
+            for (unsigned int b = 0; b < nc; ++b)
+              arrival_places.push_back(
+                nc * (nc * row_begins[f] + a * row_length(f) + place) + b);
+        incoming.back().size = arrival_places.size() - incoming.back().begin;
+      });
     arrivals.resize(arrival_places.size());
   }
 

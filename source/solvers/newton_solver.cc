@@ -163,14 +163,28 @@ namespace EBSMPM
   {
     const double target = tolerance * scale;
 
+    // With the tangent at x_{k-1}, the error at x_k is reduced about as much as
+    // the residual has been from x_{k-1} to x_k: in theory, by no less than
+    // half of that.
+    const auto old_will_do = [target](const double norm, const double ratio) {
+      return 4. * ratio * norm <= target;
+    };
+
     Report          report;
     LA::FieldVector residual, update, trial;
     residual.reinit(x);
     update.reinit(x);
     trial.reinit(x);
 
-    double norm     = try_residual(problem.residual, x, residual);
-    double previous = norm;
+    // The tangent comes with the residual. Where there is a predictor, there is
+    // something to do for it.
+    bool tangent_is_here = static_cast<bool>(problem.predictor);
+    bool tangent_is_new  = true;
+
+    double norm      = try_residual(
+      tangent_is_here ? problem.predictor : problem.residual, x, residual);
+    double previous  = norm;
+    double last_step = 1.;
     report.residuals.push_back(norm);
     AssertThrow(std::isfinite(norm),
                 ExcSolverFailure(
@@ -187,15 +201,14 @@ namespace EBSMPM
           {
             problem.smooth(x);
             report.smoothed = true;
+            tangent_is_here = false;
           }
-        // With the tangent at x_0, the error at x_1 is reduced about as much as
-        // the residual has been from x_0 to x_1. If that will do, spare the new
-        // tangent.
         const double ratio = norm / previous;
-        if (report.iterations == 0 && problem.predictor)
-          problem.predictor(x, residual);
-        else if (report.iterations != 1 || 10. * ratio * norm > target)
+        const bool   spare =
+          !tangent_is_here && tangent_is_new && old_will_do(norm, ratio);
+        if (!tangent_is_here && !spare)
           problem.tangent(x, residual);
+        tangent_is_new = !spare;
 
         // As accurate as the nonlinear convergence can make use of.
         double eta = std::min(0.1, 0.9 * ratio * ratio);
@@ -207,6 +220,13 @@ namespace EBSMPM
               eta = 0.3 * target / norm;
           }
         eta = std::max({eta, 0.1 * target / norm, 1e-12});
+
+        // The residual that is expected next. If it will take another tangent,
+        // have that together with the residual; unless the full step is not
+        // likely to be the right one.
+        const double next_ratio = report.iterations == 0 ? eta : ratio * ratio;
+        const bool   go_on      = last_step == 1. && next_ratio * norm > target &&
+                           !old_will_do(next_ratio * norm, next_ratio);
 
         update.zero_out_ghost_values();
         update = 0.;
@@ -221,14 +241,19 @@ namespace EBSMPM
         // R.update is the slope of the energy along the search direction, which
         // is negative at its beginning unless the tangent is indefinite.
         const double initial_slope = -(residual * update);
-        const auto   evaluate      = [&](const double step) {
+        tangent_is_here            = go_on;
+        const auto evaluate        = [&](const double step) {
           trial.zero_out_ghost_values();
           trial = x;
           trial.zero_out_ghost_values();
           trial.add(step, update);
           Trial result;
           result.step = step;
-          result.norm = try_residual(problem.residual, trial, residual);
+          tangent_is_here = tangent_is_here && step == 1.;
+          result.norm     = try_residual(
+            tangent_is_here ? problem.tangent : problem.residual,
+            trial,
+            residual);
           result.slope =
             std::isfinite(result.norm) ? residual * update : result.norm;
           return result;
@@ -253,8 +278,9 @@ namespace EBSMPM
                                      "turned inside out."));
         x.zero_out_ghost_values();
         x.add(best.step, update);
-        previous = norm;
-        norm     = best.norm;
+        last_step = best.step;
+        previous  = norm;
+        norm      = best.norm;
         report.residuals.push_back(norm);
       }
 

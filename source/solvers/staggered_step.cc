@@ -213,7 +213,12 @@ namespace EBSMPM
       space_is_current           = space_is_current && !changed;
       return changed;
     };
-    bool partition_changed = data.partition && update_partition();
+    // If the damage is going to be solved for first, it comes with what there
+    // is then.
+    const bool damage_is_first = data.damage && !data.damage_boundary_term;
+    bool       partition_changed =
+      data.partition && !(damage_is_first && data.max_partition_passes > 0) &&
+      update_partition();
 
     const auto begin_increment = [&]() {
       u_increment.reinit(0);

@@ -89,7 +89,7 @@ public:
     LA::FieldVector x(rows, MPI_COMM_WORLD);
     x = start;
     LinearSolver linear_solver;
-    n_residuals = 0;
+    n_residuals = n_tangents = 0;
     try
       {
         const auto report =
@@ -102,8 +102,9 @@ public:
           same = same && x(i) == x(0);
         deallog << "  x = " << x(0) << (found ? "" : " WRONG")
                 << (same ? "" : " NOT THE SAME IN ALL ENTRIES")
-                << ", iterations " << report.iterations << ", trials "
-                << n_residuals - 1 << ", bisections " << report.bisections
+                << ", iterations " << report.iterations << ", residuals "
+                << n_residuals << ", with tangent " << n_tangents
+                << ", bisections " << report.bisections
                 << (report.indefinite ? ", indefinite" : "")
                 << (report.indefinite_at_end ? ", also at the end" : "")
                 << (report.smoothed ? ", smoothed" : "") << std::endl;
@@ -143,6 +144,7 @@ private:
         matrix.set(i, i, derivative(x(i)));
       }
     matrix.compress(VectorOperation::insert);
+    ++n_tangents;
   }
 
   static constexpr unsigned int n = 4;
@@ -152,6 +154,7 @@ private:
   LA::SparseMatrix      matrix;
   NewtonSolver::Problem problem;
   unsigned int          n_residuals = 0;
+  unsigned int          n_tangents  = 0;
   std::vector<double>   residuals;
 };
 

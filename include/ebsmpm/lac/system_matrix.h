@@ -12,6 +12,7 @@
 
 #include <ebsmpm/lac/types.h>
 
+#include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
 
@@ -117,6 +118,9 @@ namespace EBSMPM
     /** The lists that each function occurs in. */
     class Occurrences;
 
+    /** The rows that other processes have sent. */
+    class ArrivingRows;
+
     /** Functions one after the other that are neighbours in a row. */
     struct Run
     {
@@ -139,32 +143,64 @@ namespace EBSMPM
              const std::vector<List>           &lists);
 
     /**
-     * Find the functions that each function couples with, @p row_functions, and
-     * build the sparse matrix.
+     * Find what the functions couple with according to the lists of this
+     * process: @p row_columns, for now with local numbers of functions.
      */
     void
-    build_matrix(const Utilities::MPI::Partitioner &functions,
-                 const Occurrences                 &occurrences);
+    find_rows(const Occurrences &occurrences);
+
+    /**
+     * Tell the other processes what the lists of this one couple, learn from
+     * them in return what belongs to the rows owned, and number the columns.
+     */
+    void
+    exchange_rows(const Utilities::MPI::Partitioner &functions);
+
+    /** Find all columns, and give them their numbers. */
+    void
+    number_columns(const Utilities::MPI::Partitioner &functions,
+                   const ArrivingRows                &arriving_rows);
+
+    /** The number of the column of a function that is known here. */
+    unsigned int
+    column(const Utilities::MPI::Partitioner &functions,
+           const types::global_dof_index      function) const;
+
+    /**
+     * From here on, @p row_columns has numbers of columns, and those that come
+     * from other processes.
+     */
+    void
+    add_rows(const Utilities::MPI::Partitioner &functions,
+             const ArrivingRows                &arriving_rows);
+
+    /** Find out where the entries that other processes send belong. */
+    void
+    find_arrival_places(const Utilities::MPI::Partitioner &functions,
+                        const ArrivingRows                &arriving_rows);
+
+    /** Build the sparse matrix. */
+    void
+    build_matrix(const Utilities::MPI::Partitioner &functions);
 
     /** Find the runs of all lists. */
     void
-    find_runs(const Utilities::MPI::Partitioner &functions,
-              const Occurrences                 &occurrences);
-
-    /**
-     * Find the rows of the sparse matrix whose columns are in another order
-     * than those of open rows.
-     */
-    void
-    find_shuffled_rows();
+    find_runs(const Occurrences &occurrences);
 
     /** Give each row a place among the open rows for the time it needs one. */
     void
     assign_slots(const Occurrences &occurrences);
 
-    /** Agree with the other processes on what is sent. */
-    void
-    set_up_messages(const Utilities::MPI::Partitioner &functions);
+    /** How many functions the row of a function couples it with. */
+    unsigned int
+    row_length(const unsigned int function) const;
+
+    /**
+     * The first entry of the rows of a function, in the sparse matrix or among
+     * those of other processes.
+     */
+    double *
+    row(const unsigned int function);
 
     /** The open row of a function. */
     double *
@@ -188,9 +224,8 @@ namespace EBSMPM
 
     LA::SparseMatrix sparse_matrix;
 
-    /** The entries of the rows owned, row by row, and where rows begin. */
-    double    *entries    = nullptr;
-    const int *row_begins = nullptr;
+    /** The entries of the rows owned, row by row. */
+    double *entries = nullptr;
 
     /** The functions of all lists, and where lists begin. */
     std::vector<unsigned int> list_functions;
@@ -200,11 +235,19 @@ namespace EBSMPM
     std::vector<types::global_dof_index> global_functions;
 
     /**
-     * For each of these, the global numbers of the functions that it couples
-     * with, in ascending order: the columns of its open row.
+     * Columns are numbered as the functions owned, followed by these functions
+     * of other processes, in ascending order; and the column of each function
+     * that this process knows.
      */
-    std::vector<types::global_dof_index> row_functions;
-    std::vector<std::size_t>             row_functions_begins;
+    IndexSet                  foreign_columns;
+    std::vector<unsigned int> columns;
+
+    /**
+     * The columns of the row of each of these functions, in ascending order,
+     * and where they begin.
+     */
+    std::vector<unsigned int> row_columns;
+    std::vector<std::size_t>  row_begins;
 
     /** The runs of each function of each list. */
     std::vector<Run>         runs;
@@ -230,27 +273,23 @@ namespace EBSMPM
     /** Scratch for add(): the open rows of a list. */
     std::vector<double *> row_pointers;
 
-    /**
-     * For functions whose entries are in another order in the sparse matrix,
-     * the place of each of their columns, counted from the begin of the row;
-     * the others have numbers::invalid_unsigned_int as begin.
-     */
-    std::vector<unsigned int> shuffled_begins;
-    std::vector<int>          shuffled_places;
-
-    /**
-     * The rows of functions of other processes, one after the other, where they
-     * begin, and to whom they go.
-     */
-    std::vector<double>      ghost_entries;
-    std::vector<std::size_t> ghost_row_begins;
-    std::vector<Message>     outgoing;
+    /** The rows of functions of other processes, and to whom they go. */
+    std::vector<double>  ghost_entries;
+    std::vector<Message> outgoing;
 
     /** What others send, and where it belongs in @p entries. */
     std::vector<double>      arrivals;
     std::vector<std::size_t> arrival_places;
     std::vector<Message>     incoming;
   };
+
+
+
+  inline unsigned int
+  SystemMatrix::row_length(const unsigned int function) const
+  {
+    return row_begins[function + 1] - row_begins[function];
+  }
 } // namespace EBSMPM
 
 #endif

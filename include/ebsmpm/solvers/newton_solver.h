@@ -31,6 +31,11 @@ namespace EBSMPM
    * the way is no reason to give up; whether one at the end is, the report
    * leaves to the caller.
    *
+   * Where a trial step is expected to be good, but not good enough, its
+   * residual is computed together with the tangent that the next iteration
+   * needs. Where the tangent of the iteration before is expected to be good
+   * enough for the last one, it is kept.
+   *
    * @code
    * NewtonSolver newton(data);
    * const auto report = newton.solve(problem, linear_solver, scale, x);
@@ -74,7 +79,8 @@ namespace EBSMPM
       /**
        * The same for the first iteration, with an approximation of the tangent
        * that is good although the initial guess does not yet meet the Dirichlet
-       * conditions. May be empty; tangent() is called then.
+       * conditions, as is then taken for granted. May be empty; residual() and,
+       * if need be, tangent() are called then.
        */
       std::function<void(const LA::FieldVector &x, LA::FieldVector &residual)>
         predictor;
