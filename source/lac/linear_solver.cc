@@ -41,9 +41,9 @@ namespace EBSMPM
     // The change of a diagonal entry, relative to it, that makes a row worth
     // correcting; the part of the rows of a process that may be corrected, and
     // their number, as this has to be quick.
-    constexpr double       least_change       = 0.1;
+    constexpr double       least_change       = 0.03;
     constexpr double       most_changed       = 0.25;
-    constexpr unsigned int largest_correction = 500;
+    constexpr unsigned int largest_correction = 1000;
 
 
 
@@ -254,11 +254,9 @@ namespace EBSMPM
           preconditioner = std::make_unique<AmgHierarchy>();
         method = new_method;
       }
+    preconditioner->set_block_size(block_size);
     if (auto *amg = dynamic_cast<AmgHierarchy *>(preconditioner.get()))
-      {
-        amg->set_block_size(block_size);
-        amg->set_near_null_space(near_null_space);
-      }
+      amg->set_near_null_space(near_null_space);
 
     preconditioner->initialize(A);
     correction.clear();

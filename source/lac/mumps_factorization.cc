@@ -126,7 +126,9 @@ namespace EBSMPM
     class Factorisation
     {
     public:
-      Factorisation(const Epetra_CrsMatrix &A, const Entries &entries)
+      Factorisation(const Epetra_CrsMatrix &A,
+                    const Entries          &entries,
+                    const unsigned int      block_size)
         : row_map(A.RowMap())
         , communicator(
             dynamic_cast<const Epetra_MpiComm &>(A.RowMap().Comm()).Comm())
@@ -154,7 +156,10 @@ namespace EBSMPM
         if (row_length < two_dimensional_row_length)
           icntl(7) = 2;
 
-        mumps.n       = A.NumGlobalRows();
+        // Analyse the graph of the blocks.
+        mumps.n = A.NumGlobalRows();
+        if (block_size > 1 && mumps.n % block_size == 0)
+          icntl(15) = -static_cast<int>(block_size);
         mumps.nnz_loc = rows.size();
         mumps.irn_loc = rows.data();
         mumps.jcn_loc = columns.data();
@@ -316,12 +321,14 @@ namespace EBSMPM
     void
     factorise(std::unique_ptr<Factorisation<Number>> &factorisation,
               const Epetra_CrsMatrix                 &A,
-              const Entries                          &entries)
+              const Entries                          &entries,
+              const unsigned int                      block_size)
     {
       if (!factorisation || !factorisation->fits(A, entries))
         {
           factorisation.reset(); // releases its memory first
-          factorisation = std::make_unique<Factorisation<Number>>(A, entries);
+          factorisation =
+            std::make_unique<Factorisation<Number>>(A, entries, block_size);
         }
       factorisation->factorise(entries);
     }
@@ -335,7 +342,7 @@ namespace EBSMPM
   struct MumpsFactorization::Data
   {
     void
-    initialize(const Epetra_CrsMatrix &A)
+    initialize(const Epetra_CrsMatrix &A, const unsigned int block_size)
     {
       const Entries entries(A);
 #  ifdef EBSMPM_HAVE_SMUMPS
@@ -346,7 +353,7 @@ namespace EBSMPM
           in_double_precision.reset();
           try
             {
-              factorise(in_single_precision, A, entries);
+              factorise(in_single_precision, A, entries, block_size);
               if (in_single_precision->n_negative_pivots() == 0)
                 return;
             }
@@ -355,7 +362,7 @@ namespace EBSMPM
           in_single_precision.reset();
         }
 #  endif
-      factorise(in_double_precision, A, entries);
+      factorise(in_double_precision, A, entries, block_size);
     }
 
     void
@@ -391,7 +398,7 @@ namespace EBSMPM
   {
     if (!data)
       data = std::make_unique<Data>();
-    data->initialize(A.trilinos_matrix());
+    data->initialize(A.trilinos_matrix(), block_size);
   }
 
 
@@ -466,6 +473,16 @@ namespace EBSMPM
 
 
   MumpsFactorization::~MumpsFactorization() = default;
+
+
+
+  void
+  MumpsFactorization::set_block_size(const unsigned int size)
+  {
+    if (size != block_size)
+      data.reset();
+    block_size = size;
+  }
 
 
 

@@ -46,8 +46,8 @@ namespace EBSMPM
      * Set the number of unknowns per function. Takes effect at the next
      * initialize().
      */
-    void
-    set_block_size(const unsigned int size);
+    virtual void
+    set_block_size(const unsigned int size) override;
 
     /**
      * Set the vectors of the near null space, which are copied. An empty list

@@ -55,6 +55,12 @@ namespace EBSMPM
     is_available();
 
     /**
+     * The symbolic factorisation works with blocks instead of unknowns then.
+     */
+    virtual void
+    set_block_size(const unsigned int size) override;
+
+    /**
      * Factorise. A pivot that vanishes up to round-off raises ExcSolverFailure.
      */
     virtual void
@@ -76,6 +82,7 @@ namespace EBSMPM
     struct Data;
 
     std::unique_ptr<Data> data;
+    unsigned int          block_size = 1;
   };
 } // namespace EBSMPM
 

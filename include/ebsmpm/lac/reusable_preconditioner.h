@@ -36,6 +36,14 @@ namespace EBSMPM
     virtual ~ReusablePreconditioner() = default;
 
     /**
+     * Say that so many unknowns that follow each other belong together, such as
+     * the components of a vector. A method that has no use for that does not
+     * listen.
+     */
+    virtual void
+    set_block_size(const unsigned int size);
+
+    /**
      * Compute from the matrix @p A. Collective.
      */
     virtual void
@@ -65,6 +73,12 @@ namespace EBSMPM
 
 
   // ------------------------- inline functions -------------------------
+
+  inline void
+  ReusablePreconditioner::set_block_size(const unsigned int)
+  {}
+
+
 
   inline bool
   ReusablePreconditioner::is_indefinite() const
