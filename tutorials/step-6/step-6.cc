@@ -199,6 +199,10 @@ main(int argc, char *argv[])
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   try
     {
+      AssertThrow(argc <= 2,
+                  ExcInput("The only argument is a file of parameters, here "
+                           "there are " +
+                           std::to_string(argc - 1) + " arguments."));
       Parameters parameters;
       ParameterAcceptor::initialize(argc > 1 ? argv[1] : "coarse.prm");
       parameters.check();
