@@ -213,12 +213,12 @@ namespace EBSMPM
       space_is_current           = space_is_current && !changed;
       return changed;
     };
-    // If the damage is going to be solved for first, it comes with what there
-    // is then.
-    const bool damage_is_first = data.damage && !data.damage_boundary_term;
-    bool       partition_changed =
-      data.partition && !(damage_is_first && data.max_partition_passes > 0) &&
-      update_partition();
+    // The first pass updates the partition after the damage, if it does, and
+    // nothing asks for it before unless the damage has a boundary term.
+    const bool comes_with_damage = data.damage && !data.damage_boundary_term &&
+                                   data.max_partition_passes > 0;
+    bool partition_changed =
+      data.partition && !comes_with_damage && update_partition();
 
     const auto begin_increment = [&]() {
       u_increment.reinit(0);
