@@ -7,7 +7,6 @@
 //
 // -----------------------------------------------------------------------------
 
-
 #include <ebsmpm/lac/diagonal.h>
 
 #include <Epetra_CrsMatrix.h>

@@ -8,7 +8,6 @@
 // -----------------------------------------------------------------------------
 
 
-
 // SystemMatrix: local matrices of windows on a lattice of functions, dealt to
 // the processes such that some work for others only, arrive where they belong.
 
@@ -19,6 +18,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <cmath>
+#include <memory>
 
 #include "../tests.h"
 
@@ -71,7 +71,9 @@ public:
             windows.push_back(window(c, r));
             known.add_indices(windows.back().begin(), windows.back().end());
           }
-    functions.reinit(owned, known, MPI_COMM_WORLD);
+    functions = std::make_unique<Utilities::MPI::Partitioner>(owned,
+                                                              known,
+                                                              MPI_COMM_WORLD);
   }
 
   /** Return whether anything is new. */
@@ -81,11 +83,11 @@ public:
     numbers.clear();
     for (unsigned int l = 0; l < n_windows; ++l)
       for (const auto f : windows[l])
-        numbers.push_back(functions.global_to_local(f));
+        numbers.push_back(functions->global_to_local(f));
     std::vector<SystemMatrix::List> lists;
     for (unsigned int l = 0; l < n_windows; ++l)
       lists.push_back({numbers.data() + l * width * width, width * width});
-    return system.reinit(functions, nc, lists);
+    return system.reinit(*functions, nc, lists);
   }
 
   /** The largest error in rows of functions that are wanted. */
@@ -124,12 +126,12 @@ public:
     system.compress();
 
     double error = 0.;
-    for (unsigned int f = 0; f < functions.locally_owned_size(); ++f)
+    for (unsigned int f = 0; f < functions->locally_owned_size(); ++f)
       if (wanted == nullptr || (*wanted)[f])
         for (unsigned int a = 0; a < nc; ++a)
           for (unsigned int j = 0; j < expected.n(); ++j)
             {
-              const auto i = nc * functions.local_to_global(f) + a;
+              const auto i = nc * functions->local_to_global(f) + a;
               error =
                 std::max(error,
                          std::abs(system.matrix().el(i, j) - expected(i, j)));
@@ -138,7 +140,7 @@ public:
   }
 
   const unsigned int                                nc;
-  Utilities::MPI::Partitioner                       functions;
+  std::unique_ptr<Utilities::MPI::Partitioner>      functions;
   std::vector<std::vector<types::global_dof_index>> windows;
   std::vector<unsigned int>                         numbers;
   SystemMatrix                                      system;
@@ -173,11 +175,11 @@ main(int argc, char **argv)
       deallog << "  some left out: " << verdict(problem.assemble(3, 2) < 1e-13)
               << std::endl;
 
-      const unsigned int n_known = problem.functions.locally_owned_size() +
-                                   problem.functions.n_ghost_indices();
+      const unsigned int n_known = problem.functions->locally_owned_size() +
+                                   problem.functions->n_ghost_indices();
       std::vector<bool> wanted(n_known);
       for (unsigned int f = 0; f < n_known; ++f)
-        wanted[f] = (problem.functions.local_to_global(f) % 4 == 0);
+        wanted[f] = (problem.functions->local_to_global(f) % 4 == 0);
       deallog << "  some rows only: "
               << verdict(problem.assemble(4, 1, &wanted) < 1e-13) << std::endl;
 

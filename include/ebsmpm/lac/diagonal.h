@@ -7,7 +7,6 @@
 //
 // -----------------------------------------------------------------------------
 
-
 #ifndef ebsmpm_lac_diagonal_h
 #define ebsmpm_lac_diagonal_h
 
