@@ -8,7 +8,6 @@
 // -----------------------------------------------------------------------------
 
 #include <ebsmpm/assembly/boundary_resultants.h>
-#include <ebsmpm/assembly/point_values.h>
 
 #include <algorithm>
 
@@ -17,28 +16,37 @@ namespace EBSMPM
   namespace BoundaryResultants
   {
     template <int dim>
+    std::map<types::boundary_id, Tensor<1, dim>>
+    reactions(const BoundaryState<dim>              &boundary,
+              const std::vector<Tensor<1, dim>>     &flux,
+              const std::vector<types::boundary_id> &ids,
+              const MPI_Comm                         communicator)
+    {
+      std::map<types::boundary_id, Tensor<1, dim>> result;
+      for (const auto id : ids)
+        result[id] = Tensor<1, dim>();
+      for (unsigned int q = 0; q < flux.size(); ++q)
+        for (unsigned int i = 0; i < dim; ++i)
+          if (boundary.constrained[q][i])
+            result.at(boundary.boundary_id[q])[i] +=
+              boundary.area[q] * flux[q][i];
+      for (auto &entry : result)
+        entry.second = Utilities::MPI::sum(entry.second, communicator);
+      return result;
+    }
+
+
+
+    template <int dim>
     double
-    conjugate_force(const Material<dim>                            &material,
-                    const Degradation                              &degradation,
-                    const double                                    penalty,
-                    const BoundaryState<dim>                       &boundary,
-                    const typename DisplacementSystem<dim>::Update &update,
-                    const std::vector<Tensor<1, dim>>              &rates,
-                    const MPI_Comm communicator)
+    conjugate_force(const BoundaryState<dim>          &boundary,
+                    const std::vector<Tensor<1, dim>> &flux,
+                    const std::vector<Tensor<1, dim>> &rates,
+                    const MPI_Comm                     communicator)
     {
       double sum = 0.;
       for (unsigned int q = 0; q < rates.size(); ++q)
-        {
-          if (rates[q].norm_square() == 0.)
-            continue;
-          const double   g = degradation.value(boundary.damage[q]);
-          Tensor<2, dim> P;
-          material.stress(update.F[q], g, P);
-          const Tensor<1, dim> flux =
-            P * boundary.normal[q] -
-            penalty * mismatch(boundary, q, update.displacement_increment[q]);
-          sum += boundary.area[q] * (flux * rates[q]);
-        }
+        sum += boundary.area[q] * (flux[q] * rates[q]);
       return Utilities::MPI::sum(sum, communicator);
     }
 
@@ -79,20 +87,26 @@ namespace EBSMPM
 
 
 
+    template std::map<types::boundary_id, Tensor<1, 2>>
+    reactions<2>(const BoundaryState<2> &,
+                 const std::vector<Tensor<1, 2>> &,
+                 const std::vector<types::boundary_id> &,
+                 const MPI_Comm);
+
     template double
-    conjugate_force<2>(const Material<2> &,
-                       const Degradation &,
-                       const double,
-                       const BoundaryState<2> &,
-                       const typename DisplacementSystem<2>::Update &,
+    conjugate_force<2>(const BoundaryState<2> &,
+                       const std::vector<Tensor<1, 2>> &,
                        const std::vector<Tensor<1, 2>> &,
                        const MPI_Comm);
+    template std::map<types::boundary_id, Tensor<1, 3>>
+    reactions<3>(const BoundaryState<3> &,
+                 const std::vector<Tensor<1, 3>> &,
+                 const std::vector<types::boundary_id> &,
+                 const MPI_Comm);
+
     template double
-    conjugate_force<3>(const Material<3> &,
-                       const Degradation &,
-                       const double,
-                       const BoundaryState<3> &,
-                       const typename DisplacementSystem<3>::Update &,
+    conjugate_force<3>(const BoundaryState<3> &,
+                       const std::vector<Tensor<1, 3>> &,
                        const std::vector<Tensor<1, 3>> &,
                        const MPI_Comm);
 

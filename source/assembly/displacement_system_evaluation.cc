@@ -59,76 +59,51 @@ namespace EBSMPM
 
 
   template <int dim>
-  typename DisplacementSystem<dim>::Energies
-  DisplacementSystem<dim>::energies(const MaterialState<dim> &state,
-                                    const BoundaryState<dim> &boundary,
-                                    const LA::FieldVector    &increment) const
+  std::vector<Tensor<1, dim>>
+  DisplacementSystem<dim>::flux(const BoundaryState<dim> &boundary,
+                                const Update             &update) const
   {
-    increment.update_ghost_values();
-    Energies result;
-    evaluate_material(state,
-                      increment,
-                      [&](const unsigned int q,
-                          const Tensor<1, dim> &,
-                          const Tensor<2, dim> &F) {
-                        const double g = degradation.value(state.damage[q]);
-                        double       psi_degraded, psi_intact;
-                        material.energies(F, psi_degraded, psi_intact);
-                        result.elastic +=
-                          state.volume[q] * (g * psi_degraded + psi_intact);
-                      });
-    evaluate_boundary(boundary,
-                      increment,
-                      [&](const unsigned int    q,
-                          const Tensor<1, dim> &value,
-                          const Tensor<2, dim> &F) {
-                        const double g = degradation.value(boundary.damage[q]);
-                        Tensor<2, dim> P;
-                        material.stress(F, g, P);
-                        const auto w = mismatch(boundary, q, value);
-                        result.penalty +=
-                          boundary.area[q] * (0.5 * beta * w.norm_square() -
-                                              w * (P * boundary.normal[q]));
-                      });
-    const MPI_Comm &comm = spline_space->communicator();
-    result.elastic       = Utilities::MPI::sum(result.elastic, comm);
-    result.penalty       = Utilities::MPI::sum(result.penalty, comm);
+    std::vector<Tensor<1, dim>> result(update.F.size());
+    for (unsigned int q = 0; q < result.size(); ++q)
+      {
+        const double   g = degradation.value(boundary.damage[q]);
+        Tensor<2, dim> P;
+        material.stress(update.F[q], g, P, branch_of(boundary_branches, q));
+        result[q] =
+          P * boundary.normal[q] -
+          beta * mismatch(boundary, q, update.displacement_increment[q]);
+      }
     return result;
   }
 
 
 
   template <int dim>
-  std::map<types::boundary_id, Tensor<1, dim>>
-  DisplacementSystem<dim>::reactions(
-    const BoundaryState<dim>              &boundary,
-    const LA::FieldVector                 &increment,
-    const std::vector<types::boundary_id> &ids) const
+  typename DisplacementSystem<dim>::Energies
+  DisplacementSystem<dim>::energies(
+    const MaterialState<dim>          &state,
+    const Update                      &update,
+    const BoundaryState<dim>          &boundary,
+    const Update                      &boundary_update,
+    const std::vector<Tensor<1, dim>> &flux) const
   {
-    increment.update_ghost_values();
-    std::map<types::boundary_id, Tensor<1, dim>> result;
-    for (const auto id : ids)
-      result[id] = Tensor<1, dim>();
-    evaluate_boundary(
-      boundary,
-      increment,
-      [&](const unsigned int    q,
-          const Tensor<1, dim> &value,
-          const Tensor<2, dim> &F) {
-        const double   g = degradation.value(boundary.damage[q]);
-        Tensor<2, dim> P;
-        material.stress(F, g, P, branch_of(boundary_branches, q));
-        const auto w = mismatch(boundary, q, value);
-        const auto flux =
-          boundary.area[q] * (P * boundary.normal[q] - beta * w);
-        auto &sum = result.at(boundary.boundary_id[q]);
-        for (unsigned int i = 0; i < dim; ++i)
-          if (boundary.constrained[q][i])
-            sum[i] += flux[i];
-      });
-    for (auto &entry : result)
-      entry.second =
-        Utilities::MPI::sum(entry.second, spline_space->communicator());
+    Energies result;
+    for (unsigned int q = 0; q < update.F.size(); ++q)
+      {
+        const double g = degradation.value(state.damage[q]);
+        double       psi_degraded, psi_intact;
+        material.energies(update.F[q], psi_degraded, psi_intact);
+        result.elastic += state.volume[q] * (g * psi_degraded + psi_intact);
+      }
+    for (unsigned int q = 0; q < flux.size(); ++q)
+      {
+        const auto w =
+          mismatch(boundary, q, boundary_update.displacement_increment[q]);
+        result.penalty -= boundary.area[q] * (w * (flux[q] + 0.5 * beta * w));
+      }
+    const MPI_Comm &comm = spline_space->communicator();
+    result.elastic       = Utilities::MPI::sum(result.elastic, comm);
+    result.penalty       = Utilities::MPI::sum(result.penalty, comm);
     return result;
   }
 
@@ -258,15 +233,14 @@ namespace EBSMPM
   template void
   DisplacementSystem<2>::driving_energy(const Update &,
                                         std::vector<double> &) const;
+  template std::vector<Tensor<1, 2>>
+  DisplacementSystem<2>::flux(const BoundaryState<2> &, const Update &) const;
   template typename DisplacementSystem<2>::Energies
   DisplacementSystem<2>::energies(const MaterialState<2> &,
+                                  const Update &,
                                   const BoundaryState<2> &,
-                                  const LA::FieldVector &) const;
-  template std::map<types::boundary_id, Tensor<1, 2>>
-  DisplacementSystem<2>::reactions(
-    const BoundaryState<2> &,
-    const LA::FieldVector &,
-    const std::vector<types::boundary_id> &) const;
+                                  const Update &,
+                                  const std::vector<Tensor<1, 2>> &) const;
   template typename DisplacementSystem<2>::Update
   DisplacementSystem<2>::update_points(const MaterialState<2> &,
                                        const LA::FieldVector &) const;
@@ -285,15 +259,14 @@ namespace EBSMPM
   template void
   DisplacementSystem<3>::driving_energy(const Update &,
                                         std::vector<double> &) const;
+  template std::vector<Tensor<1, 3>>
+  DisplacementSystem<3>::flux(const BoundaryState<3> &, const Update &) const;
   template typename DisplacementSystem<3>::Energies
   DisplacementSystem<3>::energies(const MaterialState<3> &,
+                                  const Update &,
                                   const BoundaryState<3> &,
-                                  const LA::FieldVector &) const;
-  template std::map<types::boundary_id, Tensor<1, 3>>
-  DisplacementSystem<3>::reactions(
-    const BoundaryState<3> &,
-    const LA::FieldVector &,
-    const std::vector<types::boundary_id> &) const;
+                                  const Update &,
+                                  const std::vector<Tensor<1, 3>> &) const;
   template typename DisplacementSystem<3>::Update
   DisplacementSystem<3>::update_points(const MaterialState<3> &,
                                        const LA::FieldVector &) const;

@@ -268,10 +268,7 @@ namespace EBSMPM
 
             if (data.partition && pass <= data.max_partition_passes &&
                 update_partition())
-              {
-                partition_changed = true;
-                ++report.rebuilds;
-              }
+              partition_changed = true;
           }
         if (pass == 1 && !data.damage_boundary_term)
           begin_increment();
@@ -452,7 +449,6 @@ namespace EBSMPM
         particle->set_location(particle->get_location() +
                                update.displacement_increment[q]);
       }
-    const auto boundary_update = u_system.update_points(boundary, u_increment);
     for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
       {
         BoundaryPoint<dim> point(boundary_points.properties(q));
@@ -491,7 +487,7 @@ namespace EBSMPM
   typename DisplacementSystem<dim>::Energies
   StaggeredStep<dim>::energies() const
   {
-    return u_system.energies(state, boundary, u_increment);
+    return u_system.energies(state, update, boundary, boundary_update, flux);
   }
 
 

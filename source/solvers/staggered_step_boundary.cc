@@ -35,19 +35,19 @@ namespace EBSMPM
     Report                         &report)
   {
     const MPI_Comm &communicator = u_space.communicator();
-    all_reactions     = u_system.reactions(boundary, u_increment, boundary_ids);
-    const auto update = u_system.update_points(boundary, u_increment);
+
+    boundary_update = u_system.update_points(boundary, u_increment);
+    flux            = u_system.flux(boundary, boundary_update);
+    all_reactions =
+      BoundaryResultants::reactions(boundary, flux, boundary_ids, communicator);
     report.conjugate_force = BoundaryResultants::conjugate_force(
-      material,
-      degradation,
-      u_system.penalty(),
       boundary,
-      update,
+      flux,
       conditions.rates(load, boundary_points, boundary),
       communicator);
     if (!crack_faces.empty())
       report.opened_volume = BoundaryResultants::opened_volume(boundary,
-                                                               update,
+                                                               boundary_update,
                                                                crack_faces,
                                                                communicator);
   }

@@ -168,7 +168,7 @@ test(const bool with_damage)
               << std::endl;
 
       const auto ids = std::vector<types::boundary_id>({0, 1, 2, 3, 4, 5});
-      auto reactions = system.reactions(body->boundary, x, ids);
+      auto       reactions     = reactions_of(system, *body, x, ids);
       const Tensor<1, dim> top = reactions[setup.moved];
       deallog << "  reactions";
       for (unsigned int d = 0; d < dim; ++d)
@@ -226,7 +226,7 @@ test(const bool with_damage)
         set_load(factor);
         LA::FieldVector y = x;
         newton(system, *body, y);
-        const auto e = system.energies(body->state, body->boundary, y);
+        const auto e = energies_of(system, *body, y);
         return e.elastic + e.penalty;
       };
       const double epsilon = 0.01;

@@ -17,6 +17,7 @@
 
 #include <ebsmpm/splines/extension.h>
 
+#include <ebsmpm/assembly/boundary_resultants.h>
 #include <ebsmpm/assembly/displacement_system.h>
 #include <ebsmpm/assembly/field_evaluation.h>
 #include <ebsmpm/assembly/supports.h>
@@ -33,6 +34,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -219,6 +221,40 @@ struct BodyOnGrid
   AffineConstraints<double>       constraints;
   ExtensionReport                 report;
 };
+
+
+
+/** The energies of a body after a load step. */
+template <int dim>
+typename DisplacementSystem<dim>::Energies
+energies_of(const DisplacementSystem<dim> &system,
+            const BodyOnGrid<dim>         &body,
+            const LA::FieldVector         &increment)
+{
+  const auto update = system.update_points(body.boundary, increment);
+  return system.energies(body.state,
+                         system.update_points(body.state, increment),
+                         body.boundary,
+                         update,
+                         system.flux(body.boundary, update));
+}
+
+
+
+/** The reactions of the boundaries to a load step. */
+template <int dim>
+std::map<types::boundary_id, Tensor<1, dim>>
+reactions_of(const DisplacementSystem<dim>         &system,
+             const BodyOnGrid<dim>                 &body,
+             const LA::FieldVector                 &increment,
+             const std::vector<types::boundary_id> &ids)
+{
+  return BoundaryResultants::reactions(
+    body.boundary,
+    system.flux(body.boundary, system.update_points(body.boundary, increment)),
+    ids,
+    body.space.communicator());
+}
 
 
 

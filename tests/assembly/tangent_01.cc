@@ -98,12 +98,12 @@ energy(const DisplacementSystem<dim> &system,
        const BodyOnGrid<dim>         &body,
        const LA::FieldVector         &increment)
 {
-  const auto energies = system.energies(body.state, body.boundary, increment);
+  const auto update   = system.update_points(body.boundary, increment);
+  const auto energies = energies_of(system, body, increment);
   return energies.elastic + energies.penalty -
-         BoundaryResultants::traction_work<dim>(
-           body.boundary,
-           system.update_points(body.boundary, increment),
-           MPI_COMM_WORLD);
+         BoundaryResultants::traction_work<dim>(body.boundary,
+                                                update,
+                                                MPI_COMM_WORLD);
 }
 
 

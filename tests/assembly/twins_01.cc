@@ -136,7 +136,7 @@ test(const unsigned int degree, const double plane)
                           return function_above(key) ? motion(y)[c] : 0.;
                         });
   system.assemble_tangent(body.state, body.boundary, x, residual);
-  const auto energies = system.energies(body.state, body.boundary, x);
+  const auto energies = energies_of(system, body, x);
   const auto update   = system.update_points(body.state, x);
   double     error    = 0.;
   for (unsigned int q = 0; q < body.points.n_points(); ++q)

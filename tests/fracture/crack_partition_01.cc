@@ -206,9 +206,13 @@ test(const Crack<dim> &crack, const unsigned int n_cells)
             if (is_above)
               u(dim * entry.second.index + dim - 1) = 0.5;
           }
-      const auto energies = system.energies(state, boundary, u);
-      double     opening  = 0.;
-      const auto moved    = system.update_points(state, u);
+      const auto   moved = system.update_points(state, u);
+      const auto   edges = system.update_points(boundary, u);
+      const double energy =
+        system
+          .energies(state, moved, boundary, edges, system.flux(boundary, edges))
+          .elastic;
+      double opening = 0.;
       for (unsigned int q = 0; q < points.n_points(); ++q)
         opening = std::max(opening,
                            std::abs(moved.displacement_increment[q][dim - 1] -
@@ -229,8 +233,8 @@ test(const Crack<dim> &crack, const unsigned int n_cells)
           deallog << "  moved by " << 0.5 * factor << ", the lips are "
                   << opening.smallest << " apart" << std::endl;
         }
-      deallog << "  no ligament: energy "
-              << verdict(std::abs(energies.elastic), 1e-12) << ", motion "
+      deallog << "  no ligament: energy " << verdict(std::abs(energy), 1e-12)
+              << ", motion "
               << verdict(Utilities::MPI::max(opening, MPI_COMM_WORLD), 1e-11)
               << std::endl;
     }

@@ -10,15 +10,14 @@
 #ifndef ebsmpm_assembly_boundary_resultants_h
 #define ebsmpm_assembly_boundary_resultants_h
 
-#include <ebsmpm/materials/degradation.h>
-#include <ebsmpm/materials/material.h>
-
 #include <ebsmpm/assembly/displacement_system.h>
 #include <ebsmpm/assembly/point_state.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
+#include <deal.II/base/types.h>
 
+#include <map>
 #include <vector>
 
 namespace EBSMPM
@@ -33,9 +32,24 @@ namespace EBSMPM
   namespace BoundaryResultants
   {
     /**
+     * Return the sums of the flux over each of the boundaries, in the
+     * components that are prescribed, $\sum_b A_0\,\mathbf f$.
+     *
+     * @param boundary the state at the start of the step
+     * @param flux $\mathbf f$ at all points, see DisplacementSystem::flux()
+     * @param ids all ids that the points of any process have
+     * @param communicator the processes
+     */
+    template <int dim>
+    std::map<types::boundary_id, Tensor<1, dim>>
+    reactions(const BoundaryState<dim>              &boundary,
+              const std::vector<Tensor<1, dim>>     &flux,
+              const std::vector<types::boundary_id> &ids,
+              const MPI_Comm                         communicator);
+
+    /**
      * Return the force that does work on the load $u$ on which the prescribed
-     * displacements depend: with the consistent flux $\mathbf f=\mathbf
-     * P\mathbf N-\beta\mathbf w$,
+     * displacements depend,
      * @f[
      *   T = \sum_b A_0\, \mathbf f\cdot\frac{\partial\bar{\mathbf u}}{\partial
      *   u}.
@@ -43,21 +57,15 @@ namespace EBSMPM
      * If a boundary is pulled by $u$, this is the force on it; if the ends of a
      * beam are turned against each other by the angle $u$, it is the torque.
      *
-     * @param material, @p degradation, @p penalty as given to the system
-     * @param boundary the state at the start of the step
-     * @param update what the step has added
+     * @param boundary, @p flux, @p communicator as for reactions()
      * @param rates $\partial\bar{\mathbf u}/\partial u$ at all points
-     * @param communicator the processes
      */
     template <int dim>
     double
-    conjugate_force(const Material<dim>                            &material,
-                    const Degradation                              &degradation,
-                    const double                                    penalty,
-                    const BoundaryState<dim>                       &boundary,
-                    const typename DisplacementSystem<dim>::Update &update,
-                    const std::vector<Tensor<1, dim>>              &rates,
-                    const MPI_Comm communicator);
+    conjugate_force(const BoundaryState<dim>          &boundary,
+                    const std::vector<Tensor<1, dim>> &flux,
+                    const std::vector<Tensor<1, dim>> &rates,
+                    const MPI_Comm                     communicator);
 
     /**
      * Return the work of the (constant) tractions on the whole displacement,

@@ -26,7 +26,6 @@
 #include <deal.II/base/partitioner.h>
 #include <deal.II/base/tensor_function.h>
 
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -221,22 +220,6 @@ namespace EBSMPM
     const LA::SparseMatrix &
     matrix() const;
 
-    /** Compute the energies of the body. Collective. */
-    Energies
-    energies(const MaterialState<dim> &state,
-             const BoundaryState<dim> &boundary,
-             const LA::FieldVector    &increment) const;
-
-    /**
-     * Compute the resultants of the consistent flux, $\sum_b A_0(\mathbf
-     * P\mathbf N-\beta\mathbf w)$, for each boundary id that any process has
-     * points with, in the components that are prescribed. Collective.
-     */
-    std::map<types::boundary_id, Tensor<1, dim>>
-    reactions(const BoundaryState<dim>              &boundary,
-              const LA::FieldVector                 &increment,
-              const std::vector<types::boundary_id> &ids) const;
-
     /**
      * The increments of displacement and deformation at the material points,
      * or at the boundary points: $\Delta\mathbf u$ and $\mathbf F_{n+1}$.
@@ -252,6 +235,11 @@ namespace EBSMPM
     update_points(const MaterialState<dim> &state,
                   const LA::FieldVector    &increment) const;
 
+    /** Compute what the boundary points are to become. */
+    Update
+    update_points(const BoundaryState<dim> &boundary,
+                  const LA::FieldVector    &increment) const;
+
     /**
      * Compute $\Psi_0^+$ at the material points, which drives the damage.
      */
@@ -259,10 +247,27 @@ namespace EBSMPM
     driving_energy(const Update        &update,
                    std::vector<double> &psi_degraded) const;
 
-    /** Compute what the boundary points are to become. */
-    Update
-    update_points(const BoundaryState<dim> &boundary,
-                  const LA::FieldVector    &increment) const;
+    /**
+     * Compute the consistent flux $\mathbf f=\mathbf P\mathbf N-\beta\mathbf w$
+     * at the boundary points, which are given @p update: what acts on the body,
+     * per area, see BoundaryResultants. Points that are held on a branch stay
+     * on it.
+     */
+    std::vector<Tensor<1, dim>>
+    flux(const BoundaryState<dim> &boundary, const Update &update) const;
+
+    /**
+     * Compute the energies of the body when the points have been given their
+     * updates. Collective.
+     *
+     * @param flux what flux() returns
+     */
+    Energies
+    energies(const MaterialState<dim>          &state,
+             const Update                      &update,
+             const BoundaryState<dim>          &boundary,
+             const Update                      &boundary_update,
+             const std::vector<Tensor<1, dim>> &flux) const;
 
     /**
      * The shear driving the damage at boundary points, $\mathbf w\cdot\mathbf

@@ -156,7 +156,6 @@ namespace EBSMPM
       unsigned int linear_iterations = 0;
       unsigned int refreshes         = 0;
       unsigned int bisections        = 0;
-      unsigned int rebuilds          = 0;
       bool         indefinite        = false;
       bool         indefinite_at_end = false;
       bool         smoothed          = false;
@@ -403,6 +402,10 @@ namespace EBSMPM
 
     /** Where the points get to in this step, up to the last pass. */
     typename DisplacementSystem<dim>::Update update;
+
+    /** The same for the boundary points, at the end, and what acts on them. */
+    typename DisplacementSystem<dim>::Update boundary_update;
+    std::vector<Tensor<1, dim>>              flux;
 
     typename SplineSpace<dim>::SupportTable d_supports;
 
