@@ -10,6 +10,7 @@
 // The program ebsmpm: run a parameter file without writing code.
 
 #include <ebsmpm/base/command_line.h>
+
 #include <ebsmpm/solvers/parameters.h>
 #include <ebsmpm/solvers/simulation.h>
 
@@ -92,8 +93,7 @@ main(int argc, char *argv[])
   setenv("OMP_NUM_THREADS", "1", 0);
 
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const bool                       is_first =
-    Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  const bool is_first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   try
     {
       const CommandLine command_line(argc, argv);

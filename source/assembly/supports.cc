@@ -7,8 +7,9 @@
 //
 // -----------------------------------------------------------------------------
 
-#include <ebsmpm/assembly/supports.h>
 #include <ebsmpm/splines/bspline_kernel.h>
+
+#include <ebsmpm/assembly/supports.h>
 
 #include <algorithm>
 
@@ -16,12 +17,11 @@ namespace EBSMPM
 {
   template <int dim>
   void
-  add_supports(
-    const CellPoints<dim> &                                points,
-    const std::vector<double> &                            volumes,
-    const std::vector<typename PointGroups<dim>::Pattern> &patterns,
-    const SplineSpace<dim> &                               space,
-    typename SplineSpace<dim>::SupportTable &              supports)
+  add_supports(const CellPoints<dim>                                 &points,
+               const std::vector<double>                             &volumes,
+               const std::vector<typename PointGroups<dim>::Pattern> &patterns,
+               const SplineSpace<dim>                                &space,
+               typename SplineSpace<dim>::SupportTable               &supports)
   {
     Assert(volumes.empty() || volumes.size() == points.n_points(),
            ExcDimensionMismatch(volumes.size(), points.n_points()));
@@ -33,7 +33,7 @@ namespace EBSMPM
 
     // Sum up cell by cell, part 0 and twins, and look up functions only once
     // per cell.
-    std::array<double, BSplineKernel<dim>::max_n_functions> B;
+    std::array<double, BSplineKernel<dim>::max_n_functions>                B;
     std::array<std::array<double, BSplineKernel<dim>::max_n_functions>, 2> sums;
     std::array<std::array<bool, BSplineKernel<dim>::max_n_functions>, 2>   read;
 
@@ -60,7 +60,7 @@ namespace EBSMPM
 
         // The integral of a function over its support is the volume of a cell.
         double               measure = 1.;
-        const Tensor<1, dim> h = space.lattice().cell_extents(cell.level);
+        const Tensor<1, dim> h       = space.lattice().cell_extents(cell.level);
         for (unsigned int d = 0; d < dim; ++d)
           measure *= h[d];
         for (unsigned int i = 0; i < n; ++i)

@@ -95,7 +95,7 @@ namespace EBSMPM
   template <int dim>
   bool
   LinearElastic<dim>::volumetric_part_degrades(const double       theta,
-                                    const EnergyBranch branch) const
+                                               const EnergyBranch branch) const
   {
     if (this->split == EnergySplit::none)
       return true;
@@ -109,7 +109,8 @@ namespace EBSMPM
   EnergyBranch
   LinearElastic<dim>::branch(const Tensor<2, dim> &F) const
   {
-    return dilatation(F) >= 0. ? EnergyBranch::expanded : EnergyBranch::compressed;
+    return dilatation(F) >= 0. ? EnergyBranch::expanded :
+                                 EnergyBranch::compressed;
   }
 
 
@@ -135,7 +136,7 @@ namespace EBSMPM
   LinearElastic<dim>::stress(const Tensor<2, dim> &F,
                              const double          g,
                              Tensor<2, dim>       &P,
-                          const EnergyBranch    branch) const
+                             const EnergyBranch    branch) const
   {
     const double theta = dilatation(F);
     const double g_vol = volumetric_part_degrades(theta, branch) ? g : 1.;
@@ -160,7 +161,7 @@ namespace EBSMPM
   LinearElastic<dim>::response(const Tensor<2, dim> &F,
                                const double          g,
                                Response             &response,
-                            const EnergyBranch    branch) const
+                               const EnergyBranch    branch) const
   {
     const double theta      = dilatation(F);
     const bool   degrades   = volumetric_part_degrades(theta, branch);
@@ -170,8 +171,8 @@ namespace EBSMPM
     response.psi_intact   = 0.;
     (degrades ? response.psi_degraded : response.psi_intact) += volumetric;
 
-    const double K     = (degrades ? g : 1.) * this->K;
-    const double G     = g * this->G;
+    const double K = (degrades ? g : 1.) * this->K;
+    const double G = g * this->G;
 
     response.P = stress_from_moduli(F, theta, K, G);
     response.A = 0.;

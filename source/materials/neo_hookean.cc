@@ -114,7 +114,7 @@ namespace EBSMPM
   template <int dim>
   bool
   NeoHookean<dim>::volumetric_part_degrades(const double       J,
-                                    const EnergyBranch branch) const
+                                            const EnergyBranch branch) const
   {
     if (this->split == EnergySplit::none)
       return true;
@@ -128,7 +128,8 @@ namespace EBSMPM
   EnergyBranch
   NeoHookean<dim>::branch(const Tensor<2, dim> &F) const
   {
-    return Kinematics<dim>(F).J >= 1. ? EnergyBranch::expanded : EnergyBranch::compressed;
+    return Kinematics<dim>(F).J >= 1. ? EnergyBranch::expanded :
+                                        EnergyBranch::compressed;
   }
 
 
@@ -157,8 +158,8 @@ namespace EBSMPM
                           const EnergyBranch    branch) const
   {
     const Kinematics<dim> k(F);
-    const double          g_vol = volumetric_part_degrades(k.J, branch) ? g : 1.;
-    P = stress_from_moduli(F, k, g_vol * this->K, g * this->G);
+    const double g_vol = volumetric_part_degrades(k.J, branch) ? g : 1.;
+    P                  = stress_from_moduli(F, k, g_vol * this->K, g * this->G);
   }
 
 

@@ -8,6 +8,7 @@
 // -----------------------------------------------------------------------------
 
 #include <ebsmpm/base/exceptions.h>
+
 #include <ebsmpm/solvers/newton_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -26,11 +27,10 @@ namespace EBSMPM
        * The norm of a residual, infinite where it cannot be computed.
        */
       double
-      try_residual(
-        const std::function<void(const LA::FieldVector &, LA::FieldVector &)>
-          &                    evaluate,
-        const LA::FieldVector &x,
-        LA::FieldVector &      residual)
+      try_residual(const std::function<void(const LA::FieldVector &,
+                                            LA::FieldVector &)> &evaluate,
+                   const LA::FieldVector                        &x,
+                   LA::FieldVector                              &residual)
       {
         double norm = std::numeric_limits<double>::infinity();
         try
@@ -66,13 +66,13 @@ namespace EBSMPM
        */
       template <typename Evaluate>
       Trial
-      search(const Evaluate &   evaluate,
+      search(const Evaluate    &evaluate,
              const double       initial_norm,
              const double       allowed_norm,
              const double       target,
              const double       initial_slope,
              const unsigned int max_bisections,
-             unsigned int &     n_trials)
+             unsigned int      &n_trials)
       {
         const auto is_good = [&](const Trial &trial) {
           return trial.norm <= std::max(0.9 * initial_norm, target) ||
@@ -101,8 +101,10 @@ namespace EBSMPM
           {
             double fraction = 0.5;
             if (initial_slope < 0.)
-              fraction = std::min(
-                0.95, std::max(0.05, -lower.slope / (upper.slope - lower.slope)));
+              fraction =
+                std::min(0.95,
+                         std::max(0.05,
+                                  -lower.slope / (upper.slope - lower.slope)));
             trial = evaluate(lower.step + fraction * (upper.step - lower.step));
             if (initial_slope < 0. ?
                   std::abs(trial.slope) < std::abs(best.slope) :
@@ -155,8 +157,8 @@ namespace EBSMPM
 
 
   NewtonSolver::Report
-  NewtonSolver::solve(const Problem &  problem,
-                      LinearSolver &   linear_solver,
+  NewtonSolver::solve(const Problem   &problem,
+                      LinearSolver    &linear_solver,
                       const double     scale,
                       const double     tolerance,
                       LA::FieldVector &x) const
@@ -181,8 +183,10 @@ namespace EBSMPM
     bool tangent_is_here = static_cast<bool>(problem.predictor);
     bool tangent_is_new  = true;
 
-    double norm      = try_residual(
-      tangent_is_here ? problem.predictor : problem.residual, x, residual);
+    double norm =
+      try_residual(tangent_is_here ? problem.predictor : problem.residual,
+                   x,
+                   residual);
     double previous  = norm;
     double last_step = 1.;
     report.residuals.push_back(norm);
@@ -196,8 +200,8 @@ namespace EBSMPM
         // Points that change between compression and expansion all the time
         // keep the iteration going in circles.
         const auto last = report.residuals.end();
-        if (problem.smooth && !report.smoothed &&
-            report.residuals.size() > 8 && norm > 0.3 * *(last - 5))
+        if (problem.smooth && !report.smoothed && report.residuals.size() > 8 &&
+            norm > 0.3 * *(last - 5))
           {
             problem.smooth(x);
             report.smoothed = true;
@@ -225,7 +229,7 @@ namespace EBSMPM
         // have that together with the residual; unless the full step is not
         // likely to be the right one.
         const double next_ratio = report.iterations == 0 ? eta : ratio * ratio;
-        const bool   go_on      = last_step == 1. && next_ratio * norm > target &&
+        const bool   go_on = last_step == 1. && next_ratio * norm > target &&
                            !old_will_do(next_ratio * norm, next_ratio);
 
         update.zero_out_ghost_values();
@@ -248,21 +252,21 @@ namespace EBSMPM
           trial.zero_out_ghost_values();
           trial.add(step, update);
           Trial result;
-          result.step = step;
+          result.step     = step;
           tangent_is_here = tangent_is_here && step == 1.;
-          result.norm     = try_residual(
-            tangent_is_here ? problem.tangent : problem.residual,
-            trial,
-            residual);
+          result.norm =
+            try_residual(tangent_is_here ? problem.tangent : problem.residual,
+                         trial,
+                         residual);
           result.slope =
             std::isfinite(result.norm) ? residual * update : result.norm;
           return result;
         };
         // An increase for a few iterations is fine.
-        const double recent_norm = *std::max_element(
-          report.residuals.end() -
-            std::min<std::size_t>(4, report.residuals.size()),
-          report.residuals.end());
+        const double recent_norm =
+          *std::max_element(report.residuals.end() -
+                              std::min<std::size_t>(4, report.residuals.size()),
+                            report.residuals.end());
 
         unsigned int n_trials = 0;
         const Trial  best     = search(evaluate,
@@ -286,29 +290,29 @@ namespace EBSMPM
 
     report.residual = norm;
     AssertThrow(norm <= target,
-                ExcSolverFailure(
-                  "Newton's method did not converge in " +
-                  std::to_string(report.iterations) +
-                  " iterations: the residual is " + std::to_string(norm / target) +
-                  " times what is allowed."));
+                ExcSolverFailure("Newton's method did not converge in " +
+                                 std::to_string(report.iterations) +
+                                 " iterations: the residual is " +
+                                 std::to_string(norm / target) +
+                                 " times what is allowed."));
     return report;
   }
 
 
 
   LinearSolver::Report
-  solve_linear_system(LinearSolver &          solver,
+  solve_linear_system(LinearSolver           &solver,
                       const LA::SparseMatrix &matrix,
-                      const LA::FieldVector & right_hand_side,
+                      const LA::FieldVector  &right_hand_side,
                       const double            relative_tolerance,
-                      LA::FieldVector &       solution)
+                      LA::FieldVector        &solution)
   {
-    const IndexSet  rows = matrix.locally_owned_range_indices();
-    LA::Vector      x(rows, matrix.get_mpi_communicator());
-    LA::Vector      b(x);
-    double *const   x_values = x.begin();
-    double *const   b_values = b.begin();
-    const auto      n        = rows.n_elements();
+    const IndexSet rows = matrix.locally_owned_range_indices();
+    LA::Vector     x(rows, matrix.get_mpi_communicator());
+    LA::Vector     b(x);
+    double *const  x_values = x.begin();
+    double *const  b_values = b.begin();
+    const auto     n        = rows.n_elements();
     for (unsigned int i = 0; i < n; ++i)
       {
         x_values[i] = solution.local_element(i);

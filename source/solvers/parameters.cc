@@ -52,10 +52,11 @@ namespace EBSMPM
                   lower_corner,
                   "The corner from which the cells are laid out; formulas, "
                   "separated by commas.");
-    add_parameter("Upper corner",
-                  upper_corner,
-                  "The grid reaches at least to here. The body must stay inside "
-                  "while it moves.");
+    add_parameter(
+      "Upper corner",
+      upper_corner,
+      "The grid reaches at least to here. The body must stay inside "
+      "while it moves.");
     add_parameter("Balance",
                   balance,
                   "Whether the grid is distributed among the processes by the "
@@ -137,11 +138,12 @@ namespace EBSMPM
                   tip_margin,
                   "How far behind the tip of the slit they do; a formula. With "
                   "0.45*h, the length of the slit is right on average.");
-    add_parameter("Faces",
-                  faces,
-                  "Whether the faces of the slit are boundaries, slit.lower and "
-                  "slit.upper (to which the normal points), for Conditions and "
-                  "Tractions.");
+    add_parameter(
+      "Faces",
+      faces,
+      "Whether the faces of the slit are boundaries, slit.lower and "
+      "slit.upper (to which the normal points), for Conditions and "
+      "Tractions.");
     add_parameter("History factor",
                   history_factor,
                   "History field in the damaged band, in units of Gc/(2l).",
@@ -164,11 +166,8 @@ namespace EBSMPM
                   "Which part of the energy is degraded by damage.",
                   prm,
                   Patterns::Selection(energy_split_names()));
-    add_parameter("Young's modulus",
-                  young_modulus,
-                  "Force per area.",
-                  prm,
-                  positive);
+    add_parameter(
+      "Young's modulus", young_modulus, "Force per area.", prm, positive);
     add_parameter("Poisson's ratio",
                   poisson_ratio,
                   "Between -1 and 1/2.",
@@ -266,12 +265,13 @@ namespace EBSMPM
                   "Smallest increment to try when steps fail.",
                   prm,
                   positive);
-    add_parameter("Easy passes",
-                  easy_passes,
-                  "An increment that was cut back grows again after a step with "
-                  "no more passes than this.",
-                  prm,
-                  Patterns::Integer(0));
+    add_parameter(
+      "Easy passes",
+      easy_passes,
+      "An increment that was cut back grows again after a step with "
+      "no more passes than this.",
+      prm,
+      Patterns::Integer(0));
     add_parameter("Stop below",
                   stop_below,
                   "Stop when the force has fallen below this fraction of its "
@@ -344,19 +344,21 @@ namespace EBSMPM
   Parameters::Linear::Linear()
     : ParameterAcceptor("Linear solver")
   {
-    add_parameter("Displacement",
-                  displacement,
-                  "Method for the displacement. 'automatic' means a "
-                  "factorisation if the matrix is not too large, else multigrid.",
-                  prm,
-                  Patterns::Selection(LinearSolver::method_names()));
-    add_parameter("Damage",
-                  damage,
-                  "Method for the damage. 'automatic' means CG+IC if the length "
-                  "scale is less than 20 cells, else the same as for the "
-                  "displacement.",
-                  prm,
-                  Patterns::Selection(LinearSolver::method_names()));
+    add_parameter(
+      "Displacement",
+      displacement,
+      "Method for the displacement. 'automatic' means a "
+      "factorisation if the matrix is not too large, else multigrid.",
+      prm,
+      Patterns::Selection(LinearSolver::method_names()));
+    add_parameter(
+      "Damage",
+      damage,
+      "Method for the damage. 'automatic' means CG+IC if the length "
+      "scale is less than 20 cells, else the same as for the "
+      "displacement.",
+      prm,
+      Patterns::Selection(LinearSolver::method_names()));
     add_parameter("Refresh iterations",
                   refresh_iterations,
                   "Iterations after which an old factorisation or hierarchy is "
@@ -422,12 +424,13 @@ namespace EBSMPM
     : ParameterAcceptor("Output")
   {
     add_parameter("Directory", directory, "Where all files go.");
-    add_parameter("Interval",
-                  interval,
-                  "Number of load steps between two outputs of the fields; zero "
-                  "for none.",
-                  prm,
-                  Patterns::Integer(0));
+    add_parameter(
+      "Interval",
+      interval,
+      "Number of load steps between two outputs of the fields; zero "
+      "for none.",
+      prm,
+      Patterns::Integer(0));
   }
 
 

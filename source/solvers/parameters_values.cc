@@ -155,7 +155,7 @@ namespace EBSMPM
   std::vector<std::pair<double, double>>
   Parameters::increments() const
   {
-    const std::string name = "Loading/Increments";
+    const std::string                      name = "Loading/Increments";
     std::vector<std::pair<double, double>> result;
     for (const auto &entry :
          Utilities::split_string_list(loading.increments, ','))
@@ -191,7 +191,8 @@ namespace EBSMPM
     const auto        dot  = loading.driven.rfind('.');
     const std::string name = Utilities::trim(loading.driven.substr(0, dot));
     const auto        list = boundary_names();
-    for (unsigned int id = 0; id < list.size() && dot != std::string::npos; ++id)
+    for (unsigned int id = 0; id < list.size() && dot != std::string::npos;
+         ++id)
       if (list[id] == name)
         {
           const auto component = std::string("xyz").find(
@@ -287,17 +288,18 @@ namespace EBSMPM
                                                    partition.closure_damage,
                                                    partition.frozen_ratio,
                                                    radius);
-    data.partition_data.grow    = partition.enable;
+    data.partition_data.grow               = partition.enable;
     data.partition_data.remainder_majority = partition.remainder_majority;
-    data.newton                 = NewtonSolver::AdditionalData(
-      newton.tolerance, newton.maximum_iterations, newton.maximum_bisections);
+    data.newton                 = NewtonSolver::AdditionalData(newton.tolerance,
+                                               newton.maximum_iterations,
+                                               newton.maximum_bisections);
     data.intermediate_tolerance = newton.intermediate_tolerance;
     data.refuse_indefinite      = (newton.indefinite_tangent == "cut back");
     data.displacement_solver.method =
       LinearSolver::method_from_name(linear.displacement);
     data.displacement_solver.refresh_iterations = linear.refresh_iterations;
     data.displacement_solver.max_iterations     = linear.maximum_iterations;
-    data.damage_solver        = data.displacement_solver;
+    data.damage_solver                          = data.displacement_solver;
     data.damage_solver.method = LinearSolver::method_from_name(linear.damage);
     // The condition number of the damage matrix is about (l/h)^2, on any number
     // of cells; as long as this is not large, nothing beats a local method.

@@ -8,6 +8,7 @@
 // -----------------------------------------------------------------------------
 
 #include <ebsmpm/base/compat.h>
+
 #include <ebsmpm/splines/extension.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,8 +26,8 @@ namespace EBSMPM
     {
       /**
        * How far the window of candidates reaches beyond the blocks that contain
-       * or touch the function: the first attempt, and the following ones. Beyond
-       * the last, a block of lower degree nearby is the better choice.
+       * or touch the function: the first attempt, and the following ones.
+       * Beyond the last, a block of lower degree nearby is the better choice.
        */
       const std::array<int, 2> reaches = {{2, 4}};
 
@@ -118,15 +119,17 @@ namespace EBSMPM
         {
           Block              best;
           const int          n_corners = width - q;
-          const unsigned int n_blocks  = Utilities::pow(
-            static_cast<unsigned int>(std::max(n_corners, 0)), dim);
+          const unsigned int n_blocks =
+            Utilities::pow(static_cast<unsigned int>(std::max(n_corners, 0)),
+                           dim);
           for (unsigned int b = 0; b < n_blocks; ++b)
             {
               // Everything relative to the centre of the window, where J is.
               Block block;
               block.lebesgue = 1.;
               block.distance = 0;
-              for (unsigned int d = 0, rest = b; d < dim; ++d, rest /= n_corners)
+              for (unsigned int d = 0, rest = b; d < dim;
+                   ++d, rest /= n_corners)
                 {
                   block.offset[d] = static_cast<int>(rest % n_corners) - radius;
                   block.lebesgue *= lebesgue(q, -block.offset[d]);
@@ -164,7 +167,7 @@ namespace EBSMPM
 
       private:
         bool
-        is_complete(const Index &            offset,
+        is_complete(const Index             &offset,
                     const int                q,
                     const std::vector<char> &admissible) const
         {
@@ -216,7 +219,7 @@ namespace EBSMPM
 
   template <int dim>
   ExtensionReport
-  make_extension_constraints(const SplineSpace<dim> &   space,
+  make_extension_constraints(const SplineSpace<dim>    &space,
                              AffineConstraints<double> &constraints)
   {
     using namespace internal::ExtensionImplementation;
@@ -263,7 +266,7 @@ namespace EBSMPM
       std::vector<types::global_dof_index> indices(window.size());
       for (unsigned int i = 0; i < window.size(); ++i)
         {
-          const Key                       key = window.key(i);
+          const Key                       key   = window.key(i);
           const typename Space::Function *known = space.find(key);
           if (known == nullptr)
             {
@@ -322,10 +325,10 @@ namespace EBSMPM
       int  lowest_degree;
       bool ignore_side;
     };
-    const std::array<Attempt, 4> attempts = {{{reaches[0], p, false},
-                                              {reaches[1], p, false},
-                                              {reaches[1], 0, false},
-                                              {reaches[1], 0, true}}};
+    const std::array<Attempt, 4> attempts    = {{{reaches[0], p, false},
+                                                 {reaches[1], p, false},
+                                                 {reaches[1], 0, false},
+                                                 {reaches[1], 0, true}}};
     int                          known_reach = -1;
     for (const auto &attempt : attempts)
       {
@@ -352,26 +355,27 @@ namespace EBSMPM
 
         std::vector<Key> still_pending;
         for (const auto &J : pending)
-          if (!try_to_constrain(J,
-                                attempt.reach,
-                                attempt.lowest_degree,
-                                attempt.ignore_side))
+          if (!try_to_constrain(
+                J, attempt.reach, attempt.lowest_degree, attempt.ignore_side))
             still_pending.push_back(J);
         pending = still_pending;
       }
 
     // Everybody throws if anybody has to, with the same position.
-    const int failing_rank = Utilities::MPI::max(
-      pending.empty() ? -1 :
-                        static_cast<int>(Utilities::MPI::this_mpi_process(
-                          space.communicator())),
-      space.communicator());
+    const int failing_rank =
+      Utilities::MPI::max(pending.empty() ?
+                            -1 :
+                            static_cast<int>(Utilities::MPI::this_mpi_process(
+                              space.communicator())),
+                          space.communicator());
     if (failing_rank >= 0)
       {
-        const std::string position = Utilities::MPI::broadcast(
-          space.communicator(),
-          pending.empty() ? std::string() : position_of(space, pending.front()),
-          failing_rank);
+        const std::string position =
+          Utilities::MPI::broadcast(space.communicator(),
+                                    pending.empty() ?
+                                      std::string() :
+                                      position_of(space, pending.front()),
+                                    failing_rank);
         AssertThrow(false, ExcNoStandardFunction(position));
       }
 

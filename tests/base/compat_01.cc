@@ -55,8 +55,8 @@ main(int argc, char *argv[])
       constraints.close();
     }
   deallog << "lines after: " << constraints.n_constraints() << ", index "
-          << last << " = 0.5 * " << (*constraints.get_constraint_entries(last))[0].first
-          << std::endl;
+          << last << " = 0.5 * "
+          << (*constraints.get_constraint_entries(last))[0].first << std::endl;
   deallog << "lines only for relevant indices: "
           << (constraints.get_local_lines() == relevant ? "yes" : "no")
           << std::endl;

@@ -58,7 +58,8 @@ main(int argc, char *argv[])
   const LA::Vector exact = problem.solution();
   LA::Vector       b = problem.vector(), x = problem.vector();
 
-  for (const std::string name : {"MUMPS", "KLU", "CG+AMG", "GMRES+AMG", "CG+IC"})
+  for (const std::string name :
+       {"MUMPS", "KLU", "CG+AMG", "GMRES+AMG", "CG+IC"})
     {
       LinearSolver::AdditionalData data;
       data.method             = LinearSolver::method_from_name(name);

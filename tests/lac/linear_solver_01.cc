@@ -108,7 +108,8 @@ main(int argc, char *argv[])
 
   const unsigned int n_ranks =
     dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  for (const std::string name : {"MUMPS", "KLU", "CG+AMG", "GMRES+AMG", "CG+IC"})
+  for (const std::string name :
+       {"MUMPS", "KLU", "CG+AMG", "GMRES+AMG", "CG+IC"})
     {
       test(name, numbers::invalid_unsigned_int);
       if (n_ranks > 1)

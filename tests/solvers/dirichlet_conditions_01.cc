@@ -12,6 +12,7 @@
 // said about each kind of mistake.
 
 #include <ebsmpm/base/exceptions.h>
+
 #include <ebsmpm/solvers/dirichlet_conditions.h>
 
 #include <deal.II/distributed/tria.h>

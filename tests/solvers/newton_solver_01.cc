@@ -14,6 +14,7 @@
 // the wrong sign, a start that is far away.
 
 #include <ebsmpm/base/exceptions.h>
+
 #include <ebsmpm/solvers/newton_solver.h>
 
 #include <deal.II/base/index_set.h>
@@ -65,7 +66,7 @@ public:
   set_predictor(const std::function<double(const double)> &predictor)
   {
     problem.predictor = [this, predictor](const LA::FieldVector &x,
-                                          LA::FieldVector &      r) {
+                                          LA::FieldVector       &r) {
       deallog << "  predictor" << std::endl;
       assemble(predictor, x, r);
     };
@@ -81,8 +82,8 @@ public:
   }
 
   void
-  solve(const std::string &         name,
-        const double              start,
+  solve(const std::string         &name,
+        const double               start,
         const std::vector<double> &solutions)
   {
     deallog << name << std::endl;
@@ -126,8 +127,8 @@ public:
   order(const double C) const
   {
     for (unsigned int k = 1; k < residuals.size(); ++k)
-      if (residuals[k] > std::max(C * residuals[k - 1] * residuals[k - 1],
-                                  1e-13))
+      if (residuals[k] >
+          std::max(C * residuals[k - 1] * residuals[k - 1], 1e-13))
         return "NOT quadratic";
     return "quadratic";
   }
@@ -135,8 +136,8 @@ public:
 private:
   void
   assemble(const std::function<double(const double)> &derivative,
-           const LA::FieldVector &                    x,
-           LA::FieldVector &                          r)
+           const LA::FieldVector                     &x,
+           LA::FieldVector                           &r)
   {
     for (unsigned int i = 0; i < n; ++i)
       {
@@ -168,7 +169,7 @@ main(int argc, char **argv)
 
   {
     Diagonal smooth(Scalar{[](const double x) { return x + x * x * x - 0.3; },
-                     [](const double x) { return 1. + 3. * x * x; }});
+                           [](const double x) { return 1. + 3. * x * x; }});
     smooth.solve("smooth", 0., {0.2784179903218099});
     deallog << "  " << smooth.order(1.) << std::endl;
   }
@@ -177,8 +178,9 @@ main(int argc, char **argv)
   // stiff one: from the soft side, the full step goes a thousand times too far.
   {
     const double k = 1e3;
-    Diagonal kink(Scalar{[=](const double x) { return (x < 0. ? x : k * x) - 0.1; },
-                   [=](const double x) { return x < 0. ? 1. : k; }});
+    Diagonal     kink(
+      Scalar{[=](const double x) { return (x < 0. ? x : k * x) - 0.1; },
+             [=](const double x) { return x < 0. ? 1. : k; }});
     kink.solve("kink, from the soft side", -1., {1e-4});
     kink.solve("kink, from the stiff side", 1., {1e-4});
   }
@@ -188,11 +190,11 @@ main(int argc, char **argv)
   {
     const auto branch = [](const double sign) {
       return Scalar{[=](const double x) { return x + sign; },
-                       [](const double) { return 1.; }};
+                    [](const double) { return 1.; }};
     };
     const Scalar jumping{[](const double x) { return x + (x < 0. ? -1. : 1.); },
-                            [](const double) { return 1.; }};
-    Diagonal        jump(jumping);
+                         [](const double) { return 1.; }};
+    Diagonal     jump(jumping);
     jump.solve("no root", 0.7, {});
     jump.set_smooth([&](const double x) { return branch(x < 0. ? -1. : 1.); });
     jump.solve("no root, but branches to hold", 0.7, {-1., 1.});
@@ -208,30 +210,30 @@ main(int argc, char **argv)
     };
     const auto tangent = [](const double x) { return x < 0.5 ? 0.5 : 9.5; };
     Diagonal(Scalar{limited(0.8), tangent}).solve("limit", 0., {11. / 19.});
-    Diagonal(Scalar{limited(-0.1), tangent}).solve("limit at the start", 0., {});
+    Diagonal(Scalar{limited(-0.1), tangent})
+      .solve("limit at the start", 0., {});
     Diagonal(Scalar{limited(1e-4), tangent}).solve("limit next to it", 0., {});
   }
 
   // Two stable states and an unstable one between them.
   {
     Diagonal wells(Scalar{[](const double x) { return x * x * x - x; },
-                    [](const double x) { return 3. * x * x - 1.; }});
+                          [](const double x) { return 3. * x * x - 1.; }});
     wells.solve("next to the unstable state", 0.1, {0.});
     wells.solve("next to a stable state", 0.8, {1.});
   }
 
   // Far from the root the tangent misleads, the predictor knows better.
   {
-    Diagonal far(Scalar{[](const double x) { return std::atan(x - 5.); },
-                        [](const double x) {
-                          return 1. / (1. + (x - 5.) * (x - 5.));
-                        }});
+    Diagonal far(
+      Scalar{[](const double x) { return std::atan(x - 5.); },
+             [](const double x) { return 1. / (1. + (x - 5.) * (x - 5.)); }});
     far.set_predictor([](const double) { return 0.27; });
     far.solve("far away, with a predictor", 0., {5.});
   }
 
   // What never converges says so.
   Diagonal(Scalar{[](const double x) { return 1. + x * x; },
-            [](const double x) { return 2. * x; }})
+                  [](const double x) { return 2. * x; }})
     .solve("no root at all", 0.5, {});
 }

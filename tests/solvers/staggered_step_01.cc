@@ -14,7 +14,9 @@
 // trace.
 
 #include <ebsmpm/base/exceptions.h>
+
 #include <ebsmpm/materials/make_material.h>
+
 #include <ebsmpm/solvers/staggered_step.h>
 
 #include <deal.II/distributed/tria.h>
@@ -135,11 +137,11 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   mpi_initlog();
 
-  const auto        material = make_material<2>("neo-Hookean",
+  const auto                   material = make_material<2>("neo-Hookean",
                                          EnergySplit::volumetric_deviatoric,
                                          175.,
                                          80.77);
-  const Degradation degradation(k_residual);
+  const Degradation            degradation(k_residual);
   const DirichletConditions<2> conditions(uniaxial, boundaries);
 
   {
@@ -219,7 +221,7 @@ main(int argc, char **argv)
     // A load that turns the body inside out.
     const auto before = body.everything();
     step.solve(conditions, 0.025);
-    const double once = force(step);
+    const double once   = force(step);
     bool         failed = false;
     try
       {
@@ -272,18 +274,16 @@ main(int argc, char **argv)
         double error = 0.;
         for (const double damage : step.material_state().damage)
           error = std::max(error, std::abs(damage - d));
-        deallog << "damage, u = " << u << ": d = " << d << ' '
-                << verdict(Utilities::MPI::max(error, MPI_COMM_WORLD),
-                           tolerance)
-                << ", P = " << P[1][1] << ' '
-                << close_to(step.reactions().at(3)[1], P[1][1], tolerance)
-                << ", elastic energy "
-                << close_to(step.energies().elastic,
-                            g * psi + psi_intact,
-                            tolerance)
-                << ", crack area "
-                << close_to(step.crack_area(), d * d / (2. * l), tolerance)
-                << std::endl;
+        deallog
+          << "damage, u = " << u << ": d = " << d << ' '
+          << verdict(Utilities::MPI::max(error, MPI_COMM_WORLD), tolerance)
+          << ", P = " << P[1][1] << ' '
+          << close_to(step.reactions().at(3)[1], P[1][1], tolerance)
+          << ", elastic energy "
+          << close_to(step.energies().elastic, g * psi + psi_intact, tolerance)
+          << ", crack area "
+          << close_to(step.crack_area(), d * d / (2. * l), tolerance)
+          << std::endl;
       }
   }
 }

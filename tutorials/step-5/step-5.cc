@@ -12,15 +12,15 @@
 // centre. Its lower edge is held, its upper edge is pulled upwards, and at some
 // load a crack runs from the notch to the right edge. In a phase-field model,
 // this crack is a band of broken material, a few cells wide, which still
-// transmits a small force however far the halves are moved apart. Here, it turns
-// into a real one: the two sides of the ridge of the damage read different
-// coefficients of the same B-splines, the halves separate, and the force is
-// zero to the last digit that matters.
+// transmits a small force however far the halves are moved apart. Here, it
+// turns into a real one: the two sides of the ridge of the damage read
+// different coefficients of the same B-splines, the halves separate, and the
+// force is zero to the last digit that matters.
 //
 // The program is the first benchmark of Sugai et al. (section 4.(1)). It puts
-// together, by hand, what the program <code>ebsmpm</code> does for any parameter
-// file, so that you can do the same in a program of your own. Call it with one
-// of the two parameter files next to it,
+// together, by hand, what the program <code>ebsmpm</code> does for any
+// parameter file, so that you can do the same in a program of your own. Call it
+// with one of the two parameter files next to it,
 // @code
 //   step-5 coarse.prm       # some seconds
 //   step-5 step-5.prm       # the resolution of the paper, several minutes
@@ -32,21 +32,25 @@
 // From the library, we need points and what creates them, a material, the
 // conditions on the boundary, and the load step that brings all of it together:
 #include <ebsmpm/base/exceptions.h>
+
 #include <ebsmpm/materials/degradation.h>
 #include <ebsmpm/materials/elastic_constants.h>
 #include <ebsmpm/materials/make_material.h>
-#include <ebsmpm/output/files.h>
-#include <ebsmpm/output/history.h>
-#include <ebsmpm/output/point_fields.h>
-#include <ebsmpm/output/vtu_series.h>
+
 #include <ebsmpm/particles/boundary_points.h>
 #include <ebsmpm/particles/generators.h>
 #include <ebsmpm/particles/material_points.h>
 #include <ebsmpm/particles/notch.h>
 #include <ebsmpm/particles/shape_parser.h>
+
 #include <ebsmpm/solvers/dirichlet_conditions.h>
 #include <ebsmpm/solvers/parameters.h>
 #include <ebsmpm/solvers/staggered_step.h>
+
+#include <ebsmpm/output/files.h>
+#include <ebsmpm/output/history.h>
+#include <ebsmpm/output/point_fields.h>
+#include <ebsmpm/output/vtu_series.h>
 
 // From deal.II, there is little left to ask for: a distributed grid, and the
 // parameters.
@@ -95,9 +99,9 @@ namespace Step5
     double
     load_increment(const double load) const;
     void
-    output(const unsigned int                          n,
-           const double                                load,
-           const typename StaggeredStep<dim>::Report & report);
+    output(const unsigned int                         n,
+           const double                               load,
+           const typename StaggeredStep<dim>::Report &report);
 
     const Parameters &parameters;
     const MPI_Comm    communicator;
@@ -107,10 +111,10 @@ namespace Step5
     std::unique_ptr<MaterialPoints<dim>>      points;
     std::unique_ptr<BoundaryPoints<dim>>      boundary_points;
 
-    std::unique_ptr<Material<dim>>           material;
-    const Degradation                        degradation;
+    std::unique_ptr<Material<dim>>            material;
+    const Degradation                         degradation;
     std::unique_ptr<DirichletConditions<dim>> conditions;
-    std::unique_ptr<StaggeredStep<dim>>      step;
+    std::unique_ptr<StaggeredStep<dim>>       step;
 
     std::unique_ptr<HistoryWriter> history;
     std::unique_ptr<VTUSeries>     series;
@@ -148,9 +152,8 @@ namespace Step5
     const Point<dim> lower =
       parameters.point<dim>("Background grid/Lower corner",
                             parameters.grid.lower_corner);
-    Point<dim> upper =
-      parameters.point<dim>("Background grid/Upper corner",
-                            parameters.grid.upper_corner);
+    Point<dim> upper = parameters.point<dim>("Background grid/Upper corner",
+                                             parameters.grid.upper_corner);
 
     const double              coarse_h = h * (1U << n_refinements);
     std::vector<unsigned int> repetitions(dim);
@@ -182,10 +185,9 @@ namespace Step5
     boundary_points =
       std::make_unique<BoundaryPoints<dim>>(triangulation, mapping);
 
-    const auto body =
-      parse_shape<dim>(parameters.body.shape,
-                       {{"h", parameters.cell_size()},
-                        {"l", parameters.length_scale()}});
+    const auto body = parse_shape<dim>(parameters.body.shape,
+                                       {{"h", parameters.cell_size()},
+                                        {"l", parameters.length_scale()}});
 
     PointGenerator::FillData<dim> data;
     data.n_points_per_direction = parameters.body.n_points;
@@ -208,12 +210,11 @@ namespace Step5
           {static_cast<types::boundary_id>(names.size()), boundary.second});
         names.push_back(boundary.first);
       }
-    PointGenerator::boundary<dim>(*body,
-                                  selections,
-                                  parameters.number(
-                                    "Body/Boundary point spacing",
-                                    parameters.body.spacing),
-                                  *boundary_points);
+    PointGenerator::boundary<dim>(
+      *body,
+      selections,
+      parameters.number("Body/Boundary point spacing", parameters.body.spacing),
+      *boundary_points);
     conditions =
       std::make_unique<DirichletConditions<dim>>(parameters.loading.conditions,
                                                  names);
@@ -236,10 +237,9 @@ namespace Step5
     if (notch.type == "none")
       return;
 
-    const auto region =
-      parse_shape<dim>(notch.region,
-                       {{"h", parameters.cell_size()},
-                        {"l", parameters.length_scale()}});
+    const auto region = parse_shape<dim>(notch.region,
+                                         {{"h", parameters.cell_size()},
+                                          {"l", parameters.length_scale()}});
     if (notch.type == "damage")
       {
         Notch::initial_history<dim>(*region,
@@ -254,11 +254,11 @@ namespace Step5
     slit.point = parameters.point<dim>("Notch/Plane point", notch.plane_point);
     slit.normal =
       parameters.point<dim>("Notch/Plane normal", notch.plane_normal);
-    slit.open_region  = region;
-    slit.label_width  = parameters.number("Notch/Label width",
-                                         notch.label_width);
-    slit.damage_width = parameters.number("Notch/Damage width",
-                                          notch.damage_width);
+    slit.open_region = region;
+    slit.label_width =
+      parameters.number("Notch/Label width", notch.label_width);
+    slit.damage_width =
+      parameters.number("Notch/Damage width", notch.damage_width);
     Notch::label_slit<dim>(slit, *points, *boundary_points);
   }
 
@@ -285,14 +285,15 @@ namespace Step5
                              parameters.nitsche.penalty_factor *
                                material->nitsche_stiffness() /
                                parameters.cell_size();
-    step = std::make_unique<StaggeredStep<dim>>(*points,
-                                                *boundary_points,
-                                                *material,
-                                                degradation,
-                                                parameters.damage.fracture_energy,
-                                                parameters.length_scale(),
-                                                penalty,
-                                                parameters.step_data<dim>());
+    step =
+      std::make_unique<StaggeredStep<dim>>(*points,
+                                           *boundary_points,
+                                           *material,
+                                           degradation,
+                                           parameters.damage.fracture_energy,
+                                           parameters.length_scale(),
+                                           penalty,
+                                           parameters.step_data<dim>());
   }
 
 
@@ -327,7 +328,7 @@ namespace Step5
   {
     const auto   driven = parameters.driven();
     const double force  = step->reactions().at(driven.first)[driven.second];
-    const auto & space  = step->displacement_space();
+    const auto  &space  = step->displacement_space();
     history->write(n,
                    load,
                    force,
@@ -353,16 +354,12 @@ namespace Step5
   TensionTest<dim>::run()
   {
     make_directory(parameters.output.directory, communicator);
-    history =
-      std::make_unique<HistoryWriter>(parameters.output.directory +
-                                        "/history.csv",
-                                      std::vector<std::string>{
-                                        "passes",
-                                        "independent_functions",
-                                        "twin_functions",
-                                        "crack_length"},
-                                      communicator,
-                                      Overwrite::yes);
+    history = std::make_unique<HistoryWriter>(
+      parameters.output.directory + "/history.csv",
+      std::vector<std::string>{
+        "passes", "independent_functions", "twin_functions", "crack_length"},
+      communicator,
+      Overwrite::yes);
     series = std::make_unique<VTUSeries>(parameters.output.directory,
                                          "points",
                                          communicator,
@@ -383,30 +380,30 @@ namespace Step5
     for (double full = load_increment(load); full > 0.;
          full        = load_increment(load))
       {
-        const double increment = factor * full;
-        try
+               const double increment = factor * full;
+               try
           {
-            const auto report =
-              step->solve(*conditions,
+                   const auto report =
+                     step->solve(*conditions,
                           load + increment,
                           previous > 0. ? increment / previous : 0.);
-            output(n + 1, load + increment, report);
-            ++n;
-            load += increment;
-            previous = increment;
+                   output(n + 1, load + increment, report);
+                   ++n;
+                   load += increment;
+                   previous = increment;
           }
-        catch (const ExcSolverFailure &)
+               catch (const ExcSolverFailure &)
           {
-            AssertThrow(increment >= parameters.loading.minimum_increment,
+                   AssertThrow(increment >= parameters.loading.minimum_increment,
                         ExcStepFailure(n + 1,
                                        increment,
                                        "the increment became too small."));
-            factor *= 0.5;
-            continue;
+                   factor *= 0.5;
+                   continue;
           }
         step->accept();
-        factor = std::min(1., 2. * factor);
-        if (parameters.output.interval > 0 &&
+               factor = std::min(1., 2. * factor);
+               if (parameters.output.interval > 0 &&
             n % parameters.output.interval == 0)
           writer.write(points->handler(), *series, n, load);
       }

@@ -10,9 +10,11 @@
 #ifndef ebsmpm_assembly_field_evaluation_h
 #define ebsmpm_assembly_field_evaluation_h
 
-#include <ebsmpm/assembly/point_groups.h>
 #include <ebsmpm/lac/types.h>
+
 #include <ebsmpm/splines/bspline_kernel.h>
+
+#include <ebsmpm/assembly/point_groups.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -31,10 +33,10 @@ namespace EBSMPM
    */
   template <int n_components, int dim>
   inline void
-  gather_coefficients(const PointGroups<dim> &                groups,
+  gather_coefficients(const PointGroups<dim>                 &groups,
                       const typename PointGroups<dim>::Group &group,
-                      const LA::FieldVector &                 field,
-                      Tensor<1, n_components> *               coefficients)
+                      const LA::FieldVector                  &field,
+                      Tensor<1, n_components>                *coefficients)
   {
     const unsigned int  n         = groups.n_functions_per_cell();
     const unsigned int *functions = groups.functions(group);
@@ -76,18 +78,18 @@ namespace EBSMPM
    */
   template <int n_components, int dim, typename Visitor>
   void
-  evaluate_field(const CellPoints<dim> &     points,
-                 const PointGroups<dim> &    groups,
+  evaluate_field(const CellPoints<dim>       &points,
+                 const PointGroups<dim>      &groups,
                  const CartesianLattice<dim> &lattice,
-                 const unsigned int          degree,
-                 const LA::FieldVector &     field,
-                 const Visitor &             visit)
+                 const unsigned int           degree,
+                 const LA::FieldVector       &field,
+                 const Visitor               &visit)
   {
     const BSplineKernel<dim> kernel(degree);
     const unsigned int       n = kernel.n_functions();
     std::array<Tensor<1, n_components>, BSplineKernel<dim>::max_n_functions>
-                                                            coefficients;
-    std::array<double, BSplineKernel<dim>::max_n_functions> B;
+                                                                  coefficients;
+    std::array<double, BSplineKernel<dim>::max_n_functions>       B;
     std::array<double, dim * BSplineKernel<dim>::max_n_functions> dB;
 
     for (const auto &group : groups.groups())

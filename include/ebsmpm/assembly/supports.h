@@ -10,9 +10,11 @@
 #ifndef ebsmpm_assembly_supports_h
 #define ebsmpm_assembly_supports_h
 
-#include <ebsmpm/assembly/point_groups.h>
-#include <ebsmpm/particles/cell_points.h>
 #include <ebsmpm/splines/spline_space.h>
+
+#include <ebsmpm/particles/cell_points.h>
+
+#include <ebsmpm/assembly/point_groups.h>
 
 #include <vector>
 
@@ -40,12 +42,11 @@ namespace EBSMPM
    */
   template <int dim>
   void
-  add_supports(
-    const CellPoints<dim> &                                      points,
-    const std::vector<double> &                                  volumes,
-    const std::vector<typename PointGroups<dim>::Pattern> &      patterns,
-    const SplineSpace<dim> &                                     space,
-    typename SplineSpace<dim>::SupportTable &                    supports);
+  add_supports(const CellPoints<dim>                                 &points,
+               const std::vector<double>                             &volumes,
+               const std::vector<typename PointGroups<dim>::Pattern> &patterns,
+               const SplineSpace<dim>                                &space,
+               typename SplineSpace<dim>::SupportTable               &supports);
 } // namespace EBSMPM
 
 #endif

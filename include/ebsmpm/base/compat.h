@@ -51,8 +51,8 @@ namespace EBSMPM
    */
   inline void
   reinit_constraints(AffineConstraints<double> &constraints,
-                     const IndexSet &           locally_owned,
-                     const IndexSet &           locally_relevant)
+                     const IndexSet            &locally_owned,
+                     const IndexSet            &locally_relevant)
   {
 #if DEAL_II_VERSION_GTE(9, 6, 0)
     constraints.reinit(locally_owned, locally_relevant);
@@ -74,21 +74,22 @@ namespace EBSMPM
    */
   template <int dim, typename Weight>
   inline void
-  repartition_by_weight(parallel::distributed::Triangulation<dim> &triangulation,
-                        const Weight &                             weight)
+  repartition_by_weight(
+    parallel::distributed::Triangulation<dim> &triangulation,
+    const Weight                              &weight)
   {
 #if DEAL_II_VERSION_GTE(9, 5, 0)
-    auto &                 signal = triangulation.signals.weight;
+    auto                  &signal = triangulation.signals.weight;
     constexpr unsigned int base   = 1;
 #else
-    auto &                 signal = triangulation.signals.cell_weight;
+    auto                  &signal = triangulation.signals.cell_weight;
     constexpr unsigned int base   = 0;
 #endif
     // The last argument tells what becomes of the cell; its type was renamed
     // as well.
-    const auto connection = signal.connect(
-      [&](const typename Triangulation<dim>::cell_iterator &cell,
-          const auto) -> unsigned int {
+    const auto connection =
+      signal.connect([&](const typename Triangulation<dim>::cell_iterator &cell,
+                         const auto) -> unsigned int {
         // The basic weight of deal.II 9.4 is 1000: points must outweigh it.
         return base + (cell->is_active() ? 10000 * weight(cell) : 0);
       });

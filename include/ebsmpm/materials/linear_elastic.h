@@ -65,7 +65,7 @@ namespace EBSMPM
     stress(const Tensor<2, dim> &F,
            const double          g,
            Tensor<2, dim>       &P,
-           const EnergyBranch    branch = EnergyBranch::by_state) const override;
+           const EnergyBranch branch = EnergyBranch::by_state) const override;
 
     virtual Tensor<2, dim>
     degraded_stress(const Tensor<2, dim> &F) const override;
@@ -74,7 +74,7 @@ namespace EBSMPM
     response(const Tensor<2, dim> &F,
              const double          g,
              Response             &response,
-             const EnergyBranch    branch = EnergyBranch::by_state) const override;
+             const EnergyBranch branch = EnergyBranch::by_state) const override;
 
     /**
      * Return zero, as the tangent does not depend on @p F, except where the
@@ -91,8 +91,9 @@ namespace EBSMPM
      * @p theta.
      */
     bool
-    volumetric_part_degrades(const double       theta,
-                             const EnergyBranch branch = EnergyBranch::by_state) const;
+    volumetric_part_degrades(
+      const double       theta,
+      const EnergyBranch branch = EnergyBranch::by_state) const;
   };
 } // namespace EBSMPM
 

@@ -59,8 +59,7 @@ namespace EBSMPM
     void
     initialize(const unsigned int max_n_points)
     {
-      stride =
-        (max_n_points + max_n_lanes - 1) / max_n_lanes * max_n_lanes;
+      stride = (max_n_points + max_n_lanes - 1) / max_n_lanes * max_n_lanes;
       data.assign(n_rows * stride, 0.);
       n_filled = 0;
       n        = 0;

@@ -72,7 +72,7 @@ namespace EBSMPM
     stress(const Tensor<2, dim> &F,
            const double          g,
            Tensor<2, dim>       &P,
-           const EnergyBranch    branch = EnergyBranch::by_state) const override;
+           const EnergyBranch branch = EnergyBranch::by_state) const override;
 
     virtual Tensor<2, dim>
     degraded_stress(const Tensor<2, dim> &F) const override;
@@ -81,7 +81,7 @@ namespace EBSMPM
     response(const Tensor<2, dim> &F,
              const double          g,
              Response             &response,
-             const EnergyBranch    branch = EnergyBranch::by_state) const override;
+             const EnergyBranch branch = EnergyBranch::by_state) const override;
 
     /** Several points side by side, see Lanes. */
     virtual void
@@ -98,8 +98,9 @@ namespace EBSMPM
      * @p J.
      */
     bool
-    volumetric_part_degrades(const double       J,
-                             const EnergyBranch branch = EnergyBranch::by_state) const;
+    volumetric_part_degrades(
+      const double       J,
+      const EnergyBranch branch = EnergyBranch::by_state) const;
   };
 } // namespace EBSMPM
 

@@ -65,7 +65,7 @@ namespace EBSMPM
     /** Number the locally owned particles of @p handler. */
     void
     reinit(Particles::ParticleHandler<dim> &handler,
-           const CartesianLattice<dim> &    lattice);
+           const CartesianLattice<dim>     &lattice);
 
     /** The cells that have points, in the order of the triangulation. */
     const std::vector<Cell> &

@@ -94,10 +94,10 @@ namespace EBSMPM
      * @param stride distance between two rows, at least n_functions()
      */
     inline void
-    values_and_gradients(const Point<dim> &    xi,
+    values_and_gradients(const Point<dim>     &xi,
                          const Tensor<1, dim> &inverse_h,
-                         double *              B,
-                         double *              dB,
+                         double               *B,
+                         double               *dB,
                          const unsigned int    stride) const;
 
   private:
@@ -179,10 +179,10 @@ namespace EBSMPM
 
   template <int dim>
   inline void
-  BSplineKernel<dim>::values_and_gradients(const Point<dim> &    xi,
+  BSplineKernel<dim>::values_and_gradients(const Point<dim>     &xi,
                                            const Tensor<1, dim> &inverse_h,
-                                           double *              B,
-                                           double *              dB,
+                                           double               *B,
+                                           double               *dB,
                                            const unsigned int    stride) const
   {
     double N[3][max_degree + 1], dN[3][max_degree + 1];

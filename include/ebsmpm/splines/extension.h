@@ -61,10 +61,10 @@ namespace EBSMPM
    * the one with the smaller key. The closest block alone can have very large
    * weights (280 were seen, where this rule keeps them near 10).
    *
-   * If there is no complete block within the first reach, the search is widened,
-   * and if it still fails, blocks of lower degree are tried, down to a single
-   * function. That is counted in the report. No deficient function is ever kept
-   * as an unknown; if there is no standard function in reach at all,
+   * If there is no complete block within the first reach, the search is
+   * widened, and if it still fails, blocks of lower degree are tried, down to a
+   * single function. That is counted in the report. No deficient function is
+   * ever kept as an unknown; if there is no standard function in reach at all,
    * ExcNoStandardFunction is raised (on all processes).
    *
    * Next to a crack, where functions have a side vector $\mathbf m$, a function
@@ -87,18 +87,19 @@ namespace EBSMPM
    */
   template <int dim>
   ExtensionReport
-  make_extension_constraints(const SplineSpace<dim> &   space,
+  make_extension_constraints(const SplineSpace<dim>    &space,
                              AffineConstraints<double> &constraints);
 
 
 
   /** A deficient function has no standard function in its neighbourhood. */
-  DeclException1(ExcNoStandardFunction,
-                 std::string,
-                 << "The function around (" << arg1
-                 << ") has too little material under it, and there is none with "
-                 << "enough in its neighbourhood. Use more points, smaller "
-                 << "cells, or a lower 'Extension/Threshold'.");
+  DeclException1(
+    ExcNoStandardFunction,
+    std::string,
+    << "The function around (" << arg1
+    << ") has too little material under it, and there is none with "
+    << "enough in its neighbourhood. Use more points, smaller "
+    << "cells, or a lower 'Extension/Threshold'.");
 } // namespace EBSMPM
 
 #endif
