@@ -9,6 +9,7 @@
 
 #include <ebsmpm/base/exceptions.h>
 
+#include <ebsmpm/solvers/line_search.h>
 #include <ebsmpm/solvers/newton_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -19,123 +20,87 @@
 
 namespace EBSMPM
 {
-  namespace internal
+  namespace
   {
-    namespace NewtonSolverImplementation
+    /**
+     * The norm of a residual, infinite where it cannot be computed.
+     */
+    double
+    try_residual(const std::function<void(const LA::FieldVector &,
+                                          LA::FieldVector &)> &evaluate,
+                 const LA::FieldVector                        &x,
+                 LA::FieldVector                              &residual)
     {
-      /**
-       * The norm of a residual, infinite where it cannot be computed.
-       */
-      double
-      try_residual(const std::function<void(const LA::FieldVector &,
-                                            LA::FieldVector &)> &evaluate,
-                   const LA::FieldVector                        &x,
-                   LA::FieldVector                              &residual)
-      {
-        double norm = std::numeric_limits<double>::infinity();
-        try
-          {
-            evaluate(x, residual);
-            norm = residual.l2_norm();
-          }
-        catch (const ExcSolverFailure &)
-          {}
-        return std::isfinite(norm) ? norm :
-                                     std::numeric_limits<double>::infinity();
-      }
+      double norm = std::numeric_limits<double>::infinity();
+      try
+        {
+          evaluate(x, residual);
+          norm = residual.l2_norm();
+        }
+      catch (const ExcSolverFailure &)
+        {}
+      return std::isfinite(norm) ? norm :
+                                   std::numeric_limits<double>::infinity();
+    }
 
 
 
-      /** A point on the search line. */
-      struct Trial
-      {
-        double step  = 0.;
-        double norm  = std::numeric_limits<double>::infinity();
-        double slope = std::numeric_limits<double>::infinity();
-      };
+    /**
+     * Whether the residual is about what it was four iterations ago: points
+     * that change between compression and expansion all the time keep the
+     * iteration going in circles.
+     */
+    bool
+    goes_in_circles(const std::vector<double> &residuals)
+    {
+      return residuals.size() > 8 &&
+             residuals.back() > 0.3 * residuals[residuals.size() - 5];
+    }
 
 
 
-      /**
-       * Look for a good step length: the full one if it reduces the residual,
-       * compared with the last few ones, or the slope of the energy; otherwise
-       * the point between where the slope is about zero. The energy has kinks
-       * in its second derivative, where points change from compression to
-       * expansion; there, the norm of the residual alone leads to cycles or to
-       * tiny steps.
-       */
-      template <typename Evaluate>
-      Trial
-      search(const Evaluate    &evaluate,
-             const double       initial_norm,
-             const double       allowed_norm,
-             const double       target,
-             const double       initial_slope,
-             const unsigned int max_bisections,
-             unsigned int      &n_trials)
-      {
-        const auto is_good = [&](const Trial &trial) {
-          return trial.norm <= std::max(0.9 * initial_norm, target) ||
-                 (initial_slope < 0. &&
-                  std::abs(trial.slope) <= 0.5 * std::abs(initial_slope));
-        };
+    /** The largest of the last four residuals. */
+    double
+    recent_norm(const std::vector<double> &residuals)
+    {
+      return *std::max_element(residuals.end() -
+                                 std::min<std::size_t>(4, residuals.size()),
+                               residuals.end());
+    }
 
-        Trial trial = evaluate(1.);
-        for (n_trials = 1;
-             !std::isfinite(trial.norm) && n_trials <= max_bisections;
-             ++n_trials)
-          trial = evaluate(0.5 * trial.step);
-        if (is_good(trial) || trial.norm <= allowed_norm ||
-            !std::isfinite(trial.norm) ||
-            (initial_slope < 0. && trial.slope < 0.))
-          return trial;
 
-        // Regula falsi with the Illinois modification, or, for an indefinite
-        // tangent, bisection until the residual decreases.
-        Trial best = trial;
-        Trial lower, upper = trial;
-        lower.step  = 0.;
-        lower.slope = initial_slope;
-        int side    = 0;
-        for (; n_trials <= max_bisections; ++n_trials)
-          {
-            double fraction = 0.5;
-            if (initial_slope < 0.)
-              fraction =
-                std::min(0.95,
-                         std::max(0.05,
-                                  -lower.slope / (upper.slope - lower.slope)));
-            trial = evaluate(lower.step + fraction * (upper.step - lower.step));
-            if (initial_slope < 0. ?
-                  std::abs(trial.slope) < std::abs(best.slope) :
-                  trial.norm < best.norm)
-              best = trial;
-            if (is_good(trial))
-              return trial;
-            if (initial_slope < 0. && trial.slope < 0.)
-              {
-                lower = trial;
-                if (side == -1)
-                  upper.slope *= 0.5;
-                side = -1;
-              }
-            else
-              {
-                upper = trial;
-                if (side == 1)
-                  lower.slope *= 0.5;
-                side = 1;
-              }
-          }
 
-        // Where the slope jumps, stop behind the kink: the next tangent has to
-        // know what is there.
-        return (initial_slope < 0. && upper.norm < initial_norm) ? upper : best;
-      }
-    } // namespace NewtonSolverImplementation
-  }   // namespace internal
+    /**
+     * The tolerance for the first linear system. If that given falls short of
+     * the target by little, go there at once.
+     */
+    double
+    first_forcing_term(const double first_tolerance,
+                       const double norm,
+                       const double target)
+    {
+      const double falls_short_by = first_tolerance * norm / target;
+      return (falls_short_by > 1. && falls_short_by < 100.) ?
+               0.3 * target / norm :
+               first_tolerance;
+    }
 
-  using namespace internal::NewtonSolverImplementation;
+
+
+    /**
+     * Whether the tangent of the iteration before will do for the last one.
+     * With the tangent at $x_{k-1}$, the error at $x_k$ is reduced about as
+     * much as the residual has been from $x_{k-1}$ to $x_k$, @p ratio: in
+     * theory, by no less than half of that.
+     */
+    bool
+    old_tangent_will_do(const double norm,
+                        const double ratio,
+                        const double target)
+    {
+      return 4. * ratio * norm <= target;
+    }
+  } // namespace
 
 
 
@@ -165,13 +130,6 @@ namespace EBSMPM
   {
     const double target = tolerance * scale;
 
-    // With the tangent at x_{k-1}, the error at x_k is reduced about as much as
-    // the residual has been from x_{k-1} to x_k: in theory, by no less than
-    // half of that.
-    const auto old_will_do = [target](const double norm, const double ratio) {
-      return 4. * ratio * norm <= target;
-    };
-
     Report          report;
     LA::FieldVector residual, update, trial;
     residual.reinit(x);
@@ -197,40 +155,26 @@ namespace EBSMPM
     for (; report.iterations < data.max_iterations && norm > target;
          ++report.iterations)
       {
-        // Points that change between compression and expansion all the time
-        // keep the iteration going in circles.
-        const auto last = report.residuals.end();
-        if (problem.smooth && !report.smoothed && report.residuals.size() > 8 &&
-            norm > 0.3 * *(last - 5))
+        if (problem.smooth && !report.smoothed &&
+            goes_in_circles(report.residuals))
           {
             problem.smooth(x);
             report.smoothed = true;
             tangent_is_here = false;
           }
-        const double ratio = norm / previous;
-        const bool   spare =
-          !tangent_is_here && tangent_is_new && old_will_do(norm, ratio);
-        if (!tangent_is_here && !spare)
+        const double ratio   = norm / previous;
+        const bool   keep_it = !tangent_is_here && tangent_is_new &&
+                             old_tangent_will_do(norm, ratio, target);
+        if (!tangent_is_here && !keep_it)
           problem.tangent(x, residual);
-        tangent_is_new = !spare;
+        tangent_is_new = !keep_it;
 
         // As accurate as the nonlinear convergence can make use of.
-        double eta = std::min(0.1, 0.9 * ratio * ratio);
-        if (report.iterations == 0)
-          {
-            eta = problem.first_tolerance;
-            // If that falls short of the target by little, go there at once.
-            if (eta * norm > target && eta * norm < 100. * target)
-              eta = 0.3 * target / norm;
-          }
+        double eta =
+          report.iterations == 0 ?
+            first_forcing_term(problem.first_tolerance, norm, target) :
+            std::min(0.1, 0.9 * ratio * ratio);
         eta = std::max({eta, 0.1 * target / norm, 1e-12});
-
-        // The residual that is expected next. If it will take another tangent,
-        // have that together with the residual; unless the full step is not
-        // likely to be the right one.
-        const double next_ratio = report.iterations == 0 ? eta : ratio * ratio;
-        const bool   go_on = last_step == 1. && next_ratio * norm > target &&
-                           !old_will_do(next_ratio * norm, next_ratio);
 
         update.zero_out_ghost_values();
         update = 0.;
@@ -242,16 +186,23 @@ namespace EBSMPM
         report.indefinite_at_end = linear.indefinite;
         report.indefinite        = report.indefinite || linear.indefinite;
 
+        // The residual that is expected next. If it will take another tangent,
+        // have that together with the residual; unless the full step is not
+        // likely to be the right one.
+        const double next_ratio = report.iterations == 0 ? eta : ratio * ratio;
+        const double next_norm  = next_ratio * norm;
+        tangent_is_here         = last_step == 1. && next_norm > target &&
+                          !old_tangent_will_do(next_norm, next_ratio, target);
+
         // R.update is the slope of the energy along the search direction, which
         // is negative at its beginning unless the tangent is indefinite.
-        const double initial_slope = -(residual * update);
-        tangent_is_here            = go_on;
-        const auto evaluate        = [&](const double step) {
+        const LineSearch::Trial start    = {0., norm, -(residual * update)};
+        const auto              evaluate = [&](const double step) {
           trial.zero_out_ghost_values();
           trial = x;
           trial.zero_out_ghost_values();
           trial.add(step, update);
-          Trial result;
+          LineSearch::Trial result;
           result.step     = step;
           tangent_is_here = tangent_is_here && step == 1.;
           result.norm =
@@ -263,20 +214,10 @@ namespace EBSMPM
           return result;
         };
         // An increase for a few iterations is fine.
-        const double recent_norm =
-          *std::max_element(report.residuals.end() -
-                              std::min<std::size_t>(4, report.residuals.size()),
-                            report.residuals.end());
-
-        unsigned int n_trials = 0;
-        const Trial  best     = search(evaluate,
-                                  norm,
-                                  1.5 * recent_norm,
-                                  target,
-                                  initial_slope,
-                                  data.max_bisections,
-                                  n_trials);
-        report.bisections += n_trials - 1;
+        LineSearch line(data.max_bisections, evaluate);
+        const auto best =
+          line.search(start, 1.5 * recent_norm(report.residuals), target);
+        report.bisections += line.n_trials() - 1;
         AssertThrow(std::isfinite(best.norm),
                     ExcSolverFailure("Newton's method met only states that are "
                                      "turned inside out."));

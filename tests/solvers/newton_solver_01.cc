@@ -15,13 +15,16 @@
 
 #include <ebsmpm/base/exceptions.h>
 
+#include <ebsmpm/solvers/line_search.h>
 #include <ebsmpm/solvers/newton_solver.h>
 
 #include <deal.II/base/index_set.h>
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <sstream>
+#include <string>
 
 #include "../tests.h"
 
@@ -161,11 +164,55 @@ private:
 
 
 
+/** The line search alone, where the residual is a number, along the line. */
+void
+search(const std::string                         &name,
+       const std::function<double(const double)> &residual,
+       const unsigned int                         max_bisections = 8)
+{
+  const auto evaluate = [&](const double step) {
+    LineSearch::Trial trial;
+    trial.step  = step;
+    trial.slope = residual(step);
+    trial.norm  = std::abs(trial.slope);
+    return trial;
+  };
+  LineSearch line(max_bisections, evaluate);
+  const auto start = evaluate(0.);
+  const auto best  = line.search(start, 1.5 * start.norm, 1e-6);
+  deallog << "line search, " << name << ": ";
+  if (std::isfinite(best.norm))
+    deallog << "step " << best.step << ", residual " << best.norm << " of "
+            << start.norm;
+  else
+    deallog << "no step";
+  deallog << ", " << line.n_trials() << " trials" << std::endl;
+}
+
+
+
 int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   initlog();
+
+  {
+    const double infinity = std::numeric_limits<double>::infinity();
+    search("full step", [](const double s) { return s - 0.9; });
+    search("too short", [](const double s) { return 0.1 * s - 0.9; });
+    search("increase that is allowed",
+           [](const double s) { return 2.4 * s - 1.; });
+    search("kink",
+           [](const double s) { return (s < 0.1 ? 10. : 1e3) * (s - 0.1); });
+    search(
+      "jump", [](const double s) { return s < 0.7 ? -1. : 2. + s; }, 4);
+    search("limit",
+           [=](const double s) { return s < 0.3 ? s - 0.4 : infinity; });
+    search("next to a limit",
+           [=](const double s) { return s < 1e-4 ? s - 0.4 : infinity; });
+    search("uphill", [](const double s) { return 1. - 2. * s + 10. * s * s; });
+  }
 
   {
     Diagonal smooth(Scalar{[](const double x) { return x + x * x * x - 0.3; },
