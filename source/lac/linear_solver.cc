@@ -225,9 +225,12 @@ namespace EBSMPM
   {
     if (additional_data.method != Method::automatic)
       return additional_data.method;
-    if (A.n_nonzero_elements() > additional_data.max_entries_for_direct)
+    const bool   has_mumps = MumpsFactorization::is_available();
+    const double max_entries =
+      (has_mumps ? 1. : 0.2) * additional_data.max_entries_for_direct;
+    if (A.n_nonzero_elements() > max_entries)
       return Method::cg_amg;
-    return MumpsFactorization::is_available() ? Method::mumps : Method::klu;
+    return has_mumps ? Method::mumps : Method::klu;
   }
 
 

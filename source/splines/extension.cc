@@ -99,14 +99,25 @@ namespace EBSMPM
           return n;
         }
 
+        /** Where the i-th function of the window is, relative to J. */
+        Index
+        offset(const unsigned int i) const
+        {
+          Index result;
+          for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= width)
+            result[d] = static_cast<int>(rest % width) - radius;
+          return result;
+        }
+
         /** The i-th function in the window. */
         Key
         key(const unsigned int i) const
         {
-          Key result  = center;
-          result.part = 0;
-          for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= width)
-            result.index[d] += static_cast<int>(rest % width) - radius;
+          Key         result = center;
+          const Index from_J = offset(i);
+          result.part        = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            result.index[d] += from_J[d];
           return result;
         }
 
@@ -188,18 +199,35 @@ namespace EBSMPM
 
 
       /**
-       * Whether a function with the side vector @p side lies on the side that
-       * @p wanted points from: their scalar product is not negative.
+       * How many cells a function may lie ahead and still be on this side of
+       * the crack. It is no projection that simple angles have, for the same
+       * functions must be found whatever round-off there is in side vectors.
+       */
+      constexpr double slack = 0.4;
+
+
+
+      /**
+       * Whether a function is on the side of a crack that @p wanted, a unit
+       * vector or zero, points from, to the crack: if its own side vector
+       * points there, too, or, in lack of one, if it does not lie ahead.
+       *
+       * @param offset of the function from the one that depends on it
        */
       template <std::size_t dim>
       bool
-      same_side(const std::array<double, dim> &side,
-                const std::array<double, dim> &wanted)
+      is_on_side(const std::array<double, dim>       &side,
+                 const std::array<std::int32_t, dim> &offset,
+                 const std::array<double, dim>       &wanted)
       {
-        double product = 0.;
+        double parallel = 0., ahead = 0., length = 0.;
         for (unsigned int d = 0; d < dim; ++d)
-          product += side[d] * wanted[d];
-        return product >= 0.;
+          {
+            parallel += side[d] * wanted[d];
+            ahead += offset[d] * wanted[d];
+            length += std::abs(side[d]);
+          }
+        return length > 0. ? parallel >= 0. : ahead <= slack;
       }
 
 
@@ -276,7 +304,8 @@ namespace EBSMPM
             }
           if (known != nullptr &&
               known->category == Space::FunctionClass::standard &&
-              (ignore_side || same_side(known->side, wanted)))
+              (ignore_side ||
+               is_on_side(known->side, window.offset(i), wanted)))
             {
               admissible[i] = 1;
               indices[i]    = known->index;

@@ -38,6 +38,7 @@
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "../tests.h"
@@ -360,6 +361,71 @@ test_fallbacks()
 
 
 
+/**
+ * A thin strip and a thick body, three cells apart, and a crack between them
+ * that the functions of the strip know of, if @p with_sides. The thick body has
+ * blocks of full degree, but beyond the crack.
+ */
+void
+test_beyond_crack(const bool with_sides)
+{
+  parallel::distributed::Triangulation<2> triangulation(MPI_COMM_WORLD);
+  GridGenerator::subdivided_hyper_cube(triangulation, 16, 0., 16.);
+  SplineSpace<2>                        space(triangulation, 2);
+  typename SplineSpace<2>::SupportTable supports;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    {
+      const double x        = cell->center()[0];
+      const bool   in_strip = (x > 3. && x < 5.);
+      if (!cell->is_locally_owned() || !(in_strip || x > 8.))
+        continue;
+      // The integrals of the splines over a cell.
+      const std::array<double, 3> integral = {{1. / 6., 2. / 3., 1. / 6.}};
+      for (unsigned int i = 0; i < 9; ++i)
+        {
+          auto &support = supports[space.cell_function(
+            space.lattice().cell_index(cell), cell->level(), i)];
+          support.fraction += integral[i % 3] * integral[i / 3];
+          if (in_strip && with_sides)
+            support.side = {{1., 0.}};
+        }
+    }
+  space.reinit(supports, 0.3);
+  AffineConstraints<double> constraints;
+  const auto report = make_extension_constraints(space, constraints);
+
+  unsigned int n_beyond = 0;
+  const auto   greville = [&](const FunctionKey<2> &key) {
+    return space.lattice().greville_point(key, 2)[0];
+  };
+  IndexSet in_strip(space.n_functions());
+  for (const auto &entry : space.functions())
+    if (greville(entry.first) < 6.)
+      in_strip.add_index(entry.second.index);
+  // What a process does not see of the strip, others do.
+  const auto strips = Utilities::MPI::all_gather(MPI_COMM_WORLD, in_strip);
+  for (const auto &other : strips)
+    in_strip.add_indices(other);
+  for (const auto &entry : space.functions())
+    if (space.locally_owned().is_element(entry.second.index) &&
+        constraints.is_constrained(entry.second.index) &&
+        in_strip.is_element(entry.second.index))
+      for (const auto &term :
+           *constraints.get_constraint_entries(entry.second.index))
+        if (!in_strip.is_element(term.first))
+          {
+            ++n_beyond;
+            break;
+          }
+  deallog << "strip " << (with_sides ? "at a crack" : "without sides") << ": "
+          << space.n_deficient() << " deficient, " << report.n_lower_degree
+          << " of lower degree, " << report.n_wrong_side << " wrong, "
+          << Utilities::MPI::sum(n_beyond, MPI_COMM_WORLD)
+          << " from beyond the gap" << std::endl;
+}
+
+
+
 int
 main(int argc, char **argv)
 {
@@ -372,4 +438,6 @@ main(int argc, char **argv)
       test<3>(degree);
     }
   test_fallbacks();
+  test_beyond_crack(false);
+  test_beyond_crack(true);
 }

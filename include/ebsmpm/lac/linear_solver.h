@@ -133,11 +133,12 @@ namespace EBSMPM
 
       /**
        * The number of entries of the matrix up to which Method::automatic
-       * chooses a factorisation. The default corresponds to 200,000 unknowns of
-       * two displacement components in two dimensions, and to 27,000 of three
-       * in three, with quadratic splines.
+       * chooses a factorisation; a fifth of it where there is no MUMPS. The
+       * default corresponds to a million unknowns of two displacement
+       * components in two dimensions, and to 130,000 of three in three, with
+       * quadratic splines; there, the factors take some 4 GB.
        */
-      double max_entries_for_direct = 1e7;
+      double max_entries_for_direct = 5e7;
     };
 
     /**

@@ -70,8 +70,9 @@ namespace EBSMPM
    * Next to a crack, where functions have a side vector $\mathbf m$, a function
    * is extrapolated from those on its own side of the crack, $\mathbf m_K\cdot
    * \mathbf m_J\ge 0$, and its twin from those of the other side,
-   * $\mathbf m_K\cdot\mathbf m_J\le 0$, where functions far from any crack,
-   * $\mathbf m_K=0$, belong to both.
+   * $\mathbf m_K\cdot\mathbf m_J\le 0$. Functions far from any crack, $\mathbf
+   * m_K=0$, are on the side that they lie on, seen from $J$: a block in some
+   * distance may be beyond the crack.
    *
    * @param space the numbering
    * @param constraints is emptied first; on output closed, with lines for all
