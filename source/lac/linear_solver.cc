@@ -14,6 +14,7 @@
 #include <ebsmpm/lac/incomplete_cholesky.h>
 #include <ebsmpm/lac/klu_factorization.h>
 #include <ebsmpm/lac/linear_solver.h>
+#include <ebsmpm/lac/local_factorization.h>
 #include <ebsmpm/lac/mumps_factorization.h>
 
 #include <deal.II/base/mpi.h>
@@ -39,11 +40,9 @@ namespace EBSMPM
     constexpr double round_off = 1e-16;
 
     // The change of a diagonal entry, relative to it, that makes a row worth
-    // correcting; the part of the rows of a process that may be corrected, and
-    // their number, as this has to be quick.
-    constexpr double       least_change       = 0.03;
-    constexpr double       most_changed       = 0.25;
-    constexpr unsigned int largest_correction = 1000;
+    // correcting, and the part of the rows of a process that may be corrected.
+    constexpr double least_change = 0.03;
+    constexpr double most_changed = 0.25;
 
 
 
@@ -317,9 +316,17 @@ namespace EBSMPM
           least_change * std::abs(today.begin()[i]))
         changed_rows.push_back(i);
     if (changed_rows.size() > most_changed * A.local_size() ||
-        changed_rows.size() > largest_correction)
+        changed_rows.size() > LocalFactorization::largest_size())
       changed_rows.clear();
     correction.reinit(A, changed_rows);
+  }
+
+
+
+  unsigned int
+  LinearSolver::cost_of_refresh() const
+  {
+    return std::max(additional_data.refresh_iterations, preconditioner->cost());
   }
 
 
@@ -452,7 +459,7 @@ namespace EBSMPM
                   tolerance,
                   std::min(additional_data.max_iterations,
                            iterations_when_new(1., relative_tolerance) +
-                             additional_data.refresh_iterations),
+                             cost_of_refresh()),
                   is_indefinite || method == Method::gmres_amg,
                   report);
         if (outcome == Outcome::converged)
@@ -467,8 +474,7 @@ namespace EBSMPM
               std::max(report.iterations, least) - least;
             ++n_solves;
             surplus += excess;
-            if (n_solves * excess >
-                additional_data.refresh_iterations + surplus)
+            if (n_solves * excess > cost_of_refresh() + surplus)
               invalidate();
             return report;
           }

@@ -11,6 +11,7 @@
 
 #include <ebsmpm/lac/klu_factorization.h>
 #include <ebsmpm/lac/local_factorization.h>
+#include <ebsmpm/lac/mumps_factorization.h>
 
 #include <deal.II/base/index_set.h>
 
@@ -22,11 +23,27 @@
 
 namespace EBSMPM
 {
+  namespace
+  {
+    // Up to this size, what MUMPS does before it begins takes longer than KLU.
+    constexpr unsigned int largest_for_klu = 1000;
+  } // namespace
+
+
+
   LocalFactorization::LocalFactorization() = default;
 
 
 
   LocalFactorization::~LocalFactorization() = default;
+
+
+
+  unsigned int
+  LocalFactorization::largest_size()
+  {
+    return MumpsFactorization::is_available() ? 10000 : largest_for_klu;
+  }
 
 
 
@@ -71,7 +88,10 @@ namespace EBSMPM
     src.reinit(all, MPI_COMM_SELF);
     dst.reinit(src);
 
-    factorization = std::make_unique<KluFactorization>();
+    if (n > largest_for_klu && MumpsFactorization::is_available())
+      factorization = std::make_unique<MumpsFactorization>();
+    else
+      factorization = std::make_unique<KluFactorization>();
     try
       {
         factorization->initialize(square);

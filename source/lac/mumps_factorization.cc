@@ -42,6 +42,11 @@ namespace EBSMPM
     // two-dimensional one.
     constexpr double two_dimensional_row_length = 100.;
 
+    // How many operations a factorisation makes while an iteration gets through
+    // an entry of the factors: these come from memory, and twice, and there are
+    // the matrix and the correction, too.
+    constexpr double operations_in_time_of_entry = 150.;
+
     // What MUMPS offers for a type of numbers. A pivot is considered to vanish
     // if its size, relative to the norm of the scaled matrix, is below the
     // tolerance.
@@ -253,6 +258,22 @@ namespace EBSMPM
         return mumps.infog[11];
       }
 
+      double
+      n_operations() const
+      {
+        return mumps.rinfog[2];
+      }
+
+      /**
+       * MUMPS counts in millions if there are many.
+       */
+      double
+      n_entries() const
+      {
+        const double n = mumps.infog[28];
+        return n >= 0. ? n : -1e6 * n;
+      }
+
     private:
       int
       n_null_pivots() const
@@ -385,6 +406,20 @@ namespace EBSMPM
              in_double_precision->n_negative_pivots() > 0;
     }
 
+    double
+    operations_per_entry() const
+    {
+      const auto ratio = [](const auto &factorisation) {
+        return factorisation->n_operations() /
+               std::max(1., factorisation->n_entries());
+      };
+#  ifdef EBSMPM_HAVE_SMUMPS
+      if (in_single_precision)
+        return ratio(in_single_precision);
+#  endif
+      return ratio(in_double_precision);
+    }
+
 #  ifdef EBSMPM_HAVE_SMUMPS
     std::unique_ptr<Factorisation<float>> in_single_precision;
 #  endif
@@ -415,6 +450,14 @@ namespace EBSMPM
   MumpsFactorization::is_indefinite() const
   {
     return data->is_indefinite();
+  }
+
+
+
+  unsigned int
+  MumpsFactorization::cost() const
+  {
+    return data->operations_per_entry() / operations_in_time_of_entry;
   }
 
 
@@ -454,6 +497,14 @@ namespace EBSMPM
   MumpsFactorization::is_indefinite() const
   {
     return false;
+  }
+
+
+
+  unsigned int
+  MumpsFactorization::cost() const
+  {
+    return 0;
   }
 
 

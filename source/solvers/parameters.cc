@@ -362,7 +362,8 @@ namespace EBSMPM
     add_parameter("Refresh iterations",
                   refresh_iterations,
                   "Iterations after which an old factorisation or hierarchy is "
-                  "made anew.",
+                  "made anew, at least: a large factorisation of MUMPS lasts "
+                  "longer.",
                   prm,
                   Patterns::Integer(1));
     add_parameter("Maximum iterations",

@@ -124,10 +124,11 @@ namespace EBSMPM
       unsigned int max_iterations = 500;
 
       /**
-       * What a new preconditioner costs, in iterations: $R$ above. A solve that
-       * exceeds the iterations of a new preconditioner by that number is
-       * completed with a new one. With zero, it is renewed whenever there is
-       * one iteration more.
+       * What a new preconditioner costs, in iterations, at least: $R$ above. A
+       * factorisation in three dimensions costs more, and MUMPS knows how much.
+       * A solve that exceeds the iterations of a new preconditioner by that
+       * number is completed with a new one. With zero, it is renewed whenever
+       * there is one iteration more, unless it knows better.
        */
       unsigned int refresh_iterations = 15;
 
@@ -313,6 +314,12 @@ namespace EBSMPM
      */
     void
     correct(const LA::SparseMatrix &A);
+
+    /**
+     * Return how many iterations a new preconditioner costs.
+     */
+    unsigned int
+    cost_of_refresh() const;
 
     /**
      * Return how many iterations a new preconditioner would need to reduce a

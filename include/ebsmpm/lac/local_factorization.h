@@ -19,7 +19,7 @@
 
 namespace EBSMPM
 {
-  class KluFactorization;
+  class ReusablePreconditioner;
 
   /**
    * The inverse of a small part of a matrix: of some rows of this process, in
@@ -30,6 +30,8 @@ namespace EBSMPM
    * inverse.reinit(A, rows);
    * inverse.solve(values); // in place
    * @endcode
+   *
+   * KLU is the quicker one for up to a thousand rows, and MUMPS beyond.
    */
   class LocalFactorization
   {
@@ -37,6 +39,10 @@ namespace EBSMPM
     LocalFactorization();
 
     ~LocalFactorization();
+
+    /** The number of rows up to which it is quick: tenths of a second. */
+    static unsigned int
+    largest_size();
 
     /**
      * Factorise.
@@ -55,10 +61,10 @@ namespace EBSMPM
     solve(double *values) const;
 
   private:
-    unsigned int                      n = 0;
-    std::unique_ptr<KluFactorization> factorization;
-    mutable LA::Vector                src;
-    mutable LA::Vector                dst;
+    unsigned int                            n = 0;
+    std::unique_ptr<ReusablePreconditioner> factorization;
+    mutable LA::Vector                      src;
+    mutable LA::Vector                      dst;
   };
 } // namespace EBSMPM
 

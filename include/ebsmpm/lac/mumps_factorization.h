@@ -72,6 +72,12 @@ namespace EBSMPM
     virtual bool
     is_indefinite() const override;
 
+    /**
+     * From the number of operations and that of the entries of the factors.
+     */
+    virtual unsigned int
+    cost() const override;
+
     virtual std::string
     name() const override;
 

@@ -64,6 +64,13 @@ namespace EBSMPM
     is_indefinite() const;
 
     /**
+     * Return how many iterations take as long as initialize(), about; zero if
+     * the method cannot tell. It depends on the matrix, not on measured times.
+     */
+    virtual unsigned int
+    cost() const;
+
+    /**
      * Return the name of the method, for messages.
      */
     virtual std::string
@@ -84,6 +91,14 @@ namespace EBSMPM
   ReusablePreconditioner::is_indefinite() const
   {
     return false;
+  }
+
+
+
+  inline unsigned int
+  ReusablePreconditioner::cost() const
+  {
+    return 0;
   }
 } // namespace EBSMPM
 
