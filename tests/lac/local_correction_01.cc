@@ -15,8 +15,13 @@
 #include <ebsmpm/lac/klu_factorization.h>
 #include <ebsmpm/lac/linear_solver.h>
 #include <ebsmpm/lac/local_correction.h>
+#include <ebsmpm/lac/local_factorization.h>
 
 #include <deal.II/lac/solver_cg.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include "../tests.h"
 
@@ -132,6 +137,42 @@ main(int argc, char **argv)
   x -= exact;
   deallog << "solver: " << (x.l2_norm() < 1e-4 ? "solved" : "FAILED")
           << (report.refreshed ? ", refreshed" : "") << std::endl;
+
+  // Few rows, and so many that another method does it, in single precision.
+  // Where only these, of one process, are not zero, a part of the matrix times
+  // a part of the vector is all there is.
+  const unsigned int me = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  for (const unsigned int most : {100U, 1050U})
+    {
+      const unsigned int n_rows =
+        std::min<unsigned int>(most, problem.matrix.local_size());
+      std::vector<int> first_rows(n_rows);
+      std::iota(first_rows.begin(), first_rows.end(), 0);
+      LocalFactorization inverse;
+      inverse.reinit(problem.matrix, first_rows);
+
+      double error = 0.;
+      for (unsigned int p = 0;
+           p < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+           ++p)
+        {
+          x = 0.;
+          if (p == me)
+            std::copy_n(exact.begin(), n_rows, x.begin());
+          problem.matrix.vmult(b, x);
+          std::vector<double> values(b.begin(), b.begin() + n_rows);
+          inverse.solve(values.data());
+          if (p == me)
+            for (unsigned int k = 0; k < n_rows; ++k)
+              error = std::max(error, std::abs(values[k] - x.begin()[k]));
+        }
+      deallog << most << " rows of a process: "
+              << (Utilities::MPI::max(error, MPI_COMM_WORLD) <
+                      1e-3 * exact.linfty_norm() ?
+                    "solved" :
+                    "FAILED")
+              << std::endl;
+    }
 
   // A part that is singular.
   problem.matrix = 0.;
