@@ -284,12 +284,10 @@ namespace EBSMPM
   {
     const auto is_wanted = [&](const PointGroups<dim>                 &groups,
                                const typename PointGroups<dim>::Group &group) {
-      if (wanted == nullptr)
-        return true;
-      const unsigned int *f = groups.functions(group);
-      return std::any_of(f, f + group.n_functions, [&](const unsigned int i) {
-        return (*wanted)[i];
-      });
+      return wanted == nullptr ||
+             groups.reads_any(group, [wanted](const unsigned int i) {
+               return (*wanted)[i];
+             });
     };
     const auto distribute = [&](const unsigned int list) {
       local.distribute_residual(residual);

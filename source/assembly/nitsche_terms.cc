@@ -30,7 +30,7 @@ namespace EBSMPM
   {
     max_points = max_n_points;
     product.initialize(n_functions, max_n_points);
-    coefficients.resize(LocalSystem<dim>::n_pairs * (dim + 1) * (dim + 1) *
+    coefficients.resize(MaterialBatch<dim>::n_pairs * (dim + 1) * (dim + 1) *
                         max_n_points);
   }
 
@@ -164,11 +164,10 @@ namespace EBSMPM
                                        point.g,
                                        outer_product(point.w, point.N));
 
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int k = i; k < dim; ++k)
+    for (unsigned int i = 0, pair = 0; i < dim; ++i)
+      for (unsigned int k = i; k < dim; ++k, ++pair)
         {
-          const unsigned int pair = LocalSystem<dim>::pair(i, k);
-          Tensor<2, dim>     c;
+          Tensor<2, dim> c;
           for (unsigned int b = 0; b < dim; ++b)
             for (unsigned int d = 0; d < dim; ++d)
               c[b][d] = point.A0 * dA[i][b][k][d];

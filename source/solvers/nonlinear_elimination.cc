@@ -15,7 +15,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace EBSMPM
@@ -48,13 +47,12 @@ namespace EBSMPM
         LA::FieldVector more = system.make_vector();
         for (const auto &group : groups.groups())
           {
-            const unsigned int *f   = groups.functions(group);
-            const auto          any = [&](const unsigned int i) {
+            const auto is_marked = [&](const unsigned int i) {
               return marks.local_element(dim * i) > 0.;
             };
-            if (std::any_of(f, f + group.n_functions, any))
+            if (groups.reads_any(group, is_marked))
               for (unsigned int i = 0; i < group.n_functions; ++i)
-                more.local_element(dim * f[i]) = 1.;
+                more.local_element(dim * groups.functions(group)[i]) = 1.;
           }
         more.compress(VectorOperation::add);
         marks.zero_out_ghost_values();

@@ -149,16 +149,6 @@ namespace EBSMPM
     std::array<Tensor<1, dim>, dim>
     gradient(const double *G, const unsigned int stride) const;
 
-    /** Number of pairs of components $a\le b$. */
-    static constexpr unsigned int n_pairs = dim * (dim + 1) / 2;
-
-    /** The number of such a pair. */
-    static constexpr unsigned int
-    pair(const unsigned int a, const unsigned int b)
-    {
-      return a * dim - a * (a + 1) / 2 + b;
-    }
-
     /**
      * The tangent, row by row: <tt>tangent()[I*tangent_stride() + (J*dim+a)*dim
      * + b]</tt> couples component $a$ of function $I$ with component $b$ of

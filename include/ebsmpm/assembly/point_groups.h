@@ -18,6 +18,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -126,6 +127,17 @@ namespace EBSMPM
     functions(const Group &group) const
     {
       return function_numbers.data() + group.first_function;
+    }
+
+    /**
+     * Whether a group reads any function for whose number @p condition is true.
+     */
+    template <typename Condition>
+    bool
+    reads_any(const Group &group, const Condition &condition) const
+    {
+      const unsigned int *f = functions(group);
+      return std::any_of(f, f + group.n_functions, condition);
     }
 
     /**
