@@ -17,13 +17,10 @@ namespace EBSMPM
                                  const Tensor<1, dim>    &normal,
                                  const types::boundary_id id)
   {
-    for (unsigned int i = 0; i < n_properties; ++i)
-      values[i] = 0;
+    this->initialize_common();
     reference_area() = area;
     set_boundary_id(id);
     set_reference_normal(normal);
-    for (unsigned int d = 0; d < dim; ++d)
-      values[5 + 2 * dim + d * dim + d] = 1;
   }
 
 
@@ -32,12 +29,10 @@ namespace EBSMPM
   std::vector<std::string>
   BoundaryPoint<dim>::component_names()
   {
-    std::vector<std::string> names = {
-      "reference_area", "boundary_id", "damage", "peak_damage", "label_frozen"};
+    std::vector<std::string> names = PointView<dim>::common_names();
+    names.push_back("reference_area");
+    names.push_back("boundary_id");
     names.insert(names.end(), dim, "reference_normal");
-    names.insert(names.end(), dim, "displacement");
-    names.insert(names.end(), dim * dim, "deformation_gradient");
-    names.insert(names.end(), dim, "side");
     return names;
   }
 
@@ -47,19 +42,14 @@ namespace EBSMPM
   std::vector<DataComponentInterpretation::DataComponentInterpretation>
   BoundaryPoint<dim>::component_interpretations()
   {
-    using namespace DataComponentInterpretation;
-
-    std::vector<DataComponentInterpretation::DataComponentInterpretation>
-      interpretations(5, component_is_scalar);
+    auto interpretations = PointView<dim>::common_interpretations();
     interpretations.insert(interpretations.end(),
-                           2 * dim,
-                           component_is_part_of_vector);
-    interpretations.insert(interpretations.end(),
-                           dim * dim,
-                           component_is_part_of_tensor);
-    interpretations.insert(interpretations.end(),
-                           dim,
-                           component_is_part_of_vector);
+                           2,
+                           DataComponentInterpretation::component_is_scalar);
+    interpretations.insert(
+      interpretations.end(),
+      dim,
+      DataComponentInterpretation::component_is_part_of_vector);
     return interpretations;
   }
 

@@ -15,12 +15,10 @@ namespace EBSMPM
   void
   MaterialPoint<dim>::initialize(const double volume)
   {
-    for (unsigned int i = 0; i < n_properties; ++i)
-      values[i] = 0;
+    this->initialize_common();
     reference_volume() = volume;
-    damageable()       = 1;
-    for (unsigned int d = 0; d < dim; ++d)
-      values[6 + dim + d * dim + d] = 1;
+    history()          = 0.;
+    damageable()       = 1.;
   }
 
 
@@ -29,15 +27,9 @@ namespace EBSMPM
   std::vector<std::string>
   MaterialPoint<dim>::component_names()
   {
-    std::vector<std::string> names = {"reference_volume",
-                                      "damage",
-                                      "history",
-                                      "peak_damage",
-                                      "label_frozen",
-                                      "damageable"};
-    names.insert(names.end(), dim, "displacement");
-    names.insert(names.end(), dim * dim, "deformation_gradient");
-    names.insert(names.end(), dim, "side");
+    std::vector<std::string> names = PointView<dim>::common_names();
+    for (const char *name : {"reference_volume", "history", "damageable"})
+      names.push_back(name);
     return names;
   }
 
@@ -47,19 +39,10 @@ namespace EBSMPM
   std::vector<DataComponentInterpretation::DataComponentInterpretation>
   MaterialPoint<dim>::component_interpretations()
   {
-    using namespace DataComponentInterpretation;
-
-    std::vector<DataComponentInterpretation::DataComponentInterpretation>
-      interpretations(6, component_is_scalar);
+    auto interpretations = PointView<dim>::common_interpretations();
     interpretations.insert(interpretations.end(),
-                           dim,
-                           component_is_part_of_vector);
-    interpretations.insert(interpretations.end(),
-                           dim * dim,
-                           component_is_part_of_tensor);
-    interpretations.insert(interpretations.end(),
-                           dim,
-                           component_is_part_of_vector);
+                           3,
+                           DataComponentInterpretation::component_is_scalar);
     return interpretations;
   }
 

@@ -22,6 +22,64 @@
 
 namespace EBSMPM
 {
+  namespace
+  {
+    /** Read the labels of a point. */
+    template <int dim>
+    void
+    get_labels(const PointView<dim> &point,
+               const unsigned int    q,
+               CrackLabels<dim>     &labels)
+    {
+      labels.side[q]        = point.side();
+      labels.frozen[q]      = point.label_frozen() != 0.;
+      labels.peak_damage[q] = point.peak_damage();
+    }
+
+
+
+    /**
+     * Turn a side vector with the motion during the step: a normal transforms
+     * with $F^{-T}$.
+     */
+    template <int dim>
+    Tensor<1, dim>
+    convect(const Tensor<1, dim> &side,
+            const Tensor<2, dim> &F_new,
+            const Tensor<2, dim> &F_old)
+    {
+      if (side.norm_square() == 0.)
+        return side;
+      const Tensor<1, dim> moved =
+        transpose(invert(F_new * invert(F_old))) * side;
+      return moved / moved.norm();
+    }
+
+
+
+    /** Move a point, and write its deformation and its labels to it. */
+    template <int dim>
+    void
+    advance(const CellPoints<dim>                          &points,
+            const unsigned int                              q,
+            const typename DisplacementSystem<dim>::Update &update,
+            const Tensor<2, dim>                           &F_old,
+            const CrackLabels<dim>                         &labels,
+            PointView<dim>                                 &point)
+    {
+      const Tensor<1, dim> &increment = update.displacement_increment[q];
+      point.set_displacement(point.displacement() + increment);
+      point.set_deformation_gradient(update.F[q]);
+      point.set_side(convect(labels.side[q], update.F[q], F_old));
+      point.peak_damage()  = labels.peak_damage[q];
+      point.label_frozen() = labels.frozen[q];
+      auto particle        = points.particle(q);
+      particle->set_location(particle->get_location() + increment);
+    }
+  } // namespace
+
+
+
   template <int dim>
   StaggeredStep<dim>::StaggeredStep(MaterialPoints<dim>  &points,
                                     BoundaryPoints<dim>  &boundary_points,
@@ -184,19 +242,15 @@ namespace EBSMPM
     for (unsigned int q = 0; q < points.n_points(); ++q)
       {
         const MaterialPoint<dim> point(points.properties(q));
-        state.damage[q]       = point.damage();
-        state.history[q]      = point.history();
-        labels.side[q]        = point.side();
-        labels.frozen[q]      = point.label_frozen() != 0.;
-        labels.peak_damage[q] = point.peak_damage();
+        state.damage[q]  = point.damage();
+        state.history[q] = point.history();
+        get_labels(point, q, labels);
       }
     for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
       {
         const BoundaryPoint<dim> point(boundary_points.properties(q));
-        boundary.damage[q]             = point.damage();
-        boundary_labels.side[q]        = point.side();
-        boundary_labels.frozen[q]      = point.label_frozen() != 0.;
-        boundary_labels.peak_damage[q] = point.peak_damage();
+        boundary.damage[q] = point.damage();
+        get_labels(point, q, boundary_labels);
       }
     conditions.apply(load, boundary_points, boundary);
     if (tractions != nullptr)
@@ -420,50 +474,26 @@ namespace EBSMPM
   {
     TimerOutput::Scope scope(*timer, "accept");
 
-    const auto convect = [](const Tensor<1, dim> &side,
-                            const Tensor<2, dim> &F_new,
-                            const Tensor<2, dim> &F_old) {
-      // Normals transform with F^{-T} of the motion during the step.
-      if (side.norm_square() == 0.)
-        return side;
-      const Tensor<1, dim> moved =
-        transpose(invert(F_new * invert(F_old))) * side;
-      return Tensor<1, dim>(moved / moved.norm());
-    };
-
     for (const auto &reaction : all_reactions)
       largest_force = std::max(largest_force, reaction.second.norm());
 
     for (unsigned int q = 0; q < points.n_points(); ++q)
       {
         MaterialPoint<dim> point(points.properties(q));
-        point.set_displacement(point.displacement() +
-                               update.displacement_increment[q]);
-        point.set_side(convect(labels.side[q], update.F[q], state.F[q]));
-        point.set_deformation_gradient(update.F[q]);
-        point.damage()       = state.damage[q];
-        point.history()      = state.history[q];
-        point.peak_damage()  = labels.peak_damage[q];
-        point.label_frozen() = labels.frozen[q];
-        auto particle        = points.particle(q);
-        particle->set_location(particle->get_location() +
-                               update.displacement_increment[q]);
+        advance(points, q, update, state.F[q], labels, point);
+        point.damage()  = state.damage[q];
+        point.history() = state.history[q];
       }
     for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
       {
         BoundaryPoint<dim> point(boundary_points.properties(q));
-        point.set_displacement(point.displacement() +
-                               boundary_update.displacement_increment[q]);
-        point.set_side(convect(boundary_labels.side[q],
-                               boundary_update.F[q],
-                               boundary.F[q]));
-        point.set_deformation_gradient(boundary_update.F[q]);
-        point.damage()       = boundary.damage[q];
-        point.peak_damage()  = boundary_labels.peak_damage[q];
-        point.label_frozen() = boundary_labels.frozen[q];
-        auto particle        = boundary_points.particle(q);
-        particle->set_location(particle->get_location() +
-                               boundary_update.displacement_increment[q]);
+        advance(boundary_points,
+                q,
+                boundary_update,
+                boundary.F[q],
+                boundary_labels,
+                point);
+        point.damage() = boundary.damage[q];
       }
 
     last_increment.reinit(u_space, u_increment);

@@ -10,7 +10,7 @@
 #ifndef ebsmpm_particles_boundary_point_h
 #define ebsmpm_particles_boundary_point_h
 
-#include <ebsmpm/base/config.h>
+#include <ebsmpm/particles/point_view.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
@@ -28,18 +28,18 @@ namespace EBSMPM
    * The state of one boundary point: names for the numbers that a particle of
    * BoundaryPoints carries as its properties. A view like MaterialPoint.
    *
-   * The numbers are stored in the order reference area, boundary id, damage,
-   * peak damage, frozen, reference normal (dim), displacement (dim),
-   * deformation gradient (dim*dim, row by row), side (dim).
+   * After those of PointView, the numbers are stored in the order reference
+   * area, boundary id, reference normal (dim).
    */
   template <int dim>
-  class BoundaryPoint
+  class BoundaryPoint : public PointView<dim>
   {
   public:
     /**
      * How many numbers a point carries.
      */
-    static constexpr unsigned int n_properties = 5 + 3 * dim + dim * dim;
+    static constexpr unsigned int n_properties =
+      PointView<dim>::n_common + 2 + dim;
 
     /**
      * Constructor. @p properties are those of the particle.
@@ -65,33 +65,6 @@ namespace EBSMPM
     set_boundary_id(const types::boundary_id id);
 
     /**
-     * The damage $d$ at the point.
-     */
-    double &
-    damage();
-
-    double
-    damage() const;
-
-    /**
-     * The largest damage so far, or 1 next to a slit.
-     */
-    double &
-    peak_damage();
-
-    double
-    peak_damage() const;
-
-    /**
-     * 1 if side() is settled once and for all, 0 otherwise.
-     */
-    double &
-    label_frozen();
-
-    double
-    label_frozen() const;
-
-    /**
      * The unit normal $N$ before any deformation. It points out of the body.
      */
     Tensor<1, dim>
@@ -99,34 +72,6 @@ namespace EBSMPM
 
     void
     set_reference_normal(const Tensor<1, dim> &normal);
-
-    /**
-     * The total displacement $u$.
-     */
-    Tensor<1, dim>
-    displacement() const;
-
-    void
-    set_displacement(const Tensor<1, dim> &displacement);
-
-    /**
-     * The deformation gradient $F$, without the trivial row and column in 2d.
-     */
-    Tensor<2, dim>
-    deformation_gradient() const;
-
-    void
-    set_deformation_gradient(const Tensor<2, dim> &gradient);
-
-    /**
-     * The unit vector that points towards the crack next to the point; zero if
-     * there is none.
-     */
-    Tensor<1, dim>
-    side() const;
-
-    void
-    set_side(const Tensor<1, dim> &side);
 
     /**
      * The unit normal of the deformed body, $F^{-T}N/|F^{-T}N|$.
@@ -163,7 +108,8 @@ namespace EBSMPM
     component_interpretations();
 
   private:
-    double *const values;
+    using PointView<dim>::n_common;
+    using PointView<dim>::values;
   };
 
 
@@ -174,7 +120,7 @@ namespace EBSMPM
 
   template <int dim>
   inline BoundaryPoint<dim>::BoundaryPoint(const ArrayView<double> &properties)
-    : values(properties.data())
+    : PointView<dim>(properties.data())
   {
     AssertDimension(properties.size(), n_properties);
   }
@@ -185,7 +131,7 @@ namespace EBSMPM
   inline double &
   BoundaryPoint<dim>::reference_area()
   {
-    return values[0];
+    return values[n_common];
   }
 
 
@@ -194,7 +140,7 @@ namespace EBSMPM
   inline double
   BoundaryPoint<dim>::reference_area() const
   {
-    return values[0];
+    return values[n_common];
   }
 
 
@@ -203,7 +149,7 @@ namespace EBSMPM
   inline types::boundary_id
   BoundaryPoint<dim>::boundary_id() const
   {
-    return static_cast<types::boundary_id>(values[1]);
+    return static_cast<types::boundary_id>(values[n_common + 1]);
   }
 
 
@@ -212,61 +158,7 @@ namespace EBSMPM
   inline void
   BoundaryPoint<dim>::set_boundary_id(const types::boundary_id id)
   {
-    values[1] = id;
-  }
-
-
-
-  template <int dim>
-  inline double &
-  BoundaryPoint<dim>::damage()
-  {
-    return values[2];
-  }
-
-
-
-  template <int dim>
-  inline double
-  BoundaryPoint<dim>::damage() const
-  {
-    return values[2];
-  }
-
-
-
-  template <int dim>
-  inline double &
-  BoundaryPoint<dim>::peak_damage()
-  {
-    return values[3];
-  }
-
-
-
-  template <int dim>
-  inline double
-  BoundaryPoint<dim>::peak_damage() const
-  {
-    return values[3];
-  }
-
-
-
-  template <int dim>
-  inline double &
-  BoundaryPoint<dim>::label_frozen()
-  {
-    return values[4];
-  }
-
-
-
-  template <int dim>
-  inline double
-  BoundaryPoint<dim>::label_frozen() const
-  {
-    return values[4];
+    values[n_common + 1] = id;
   }
 
 
@@ -277,7 +169,7 @@ namespace EBSMPM
   {
     Tensor<1, dim> N;
     for (unsigned int d = 0; d < dim; ++d)
-      N[d] = values[5 + d];
+      N[d] = values[n_common + 2 + d];
     return N;
   }
 
@@ -288,75 +180,7 @@ namespace EBSMPM
   BoundaryPoint<dim>::set_reference_normal(const Tensor<1, dim> &normal)
   {
     for (unsigned int d = 0; d < dim; ++d)
-      values[5 + d] = normal[d];
-  }
-
-
-
-  template <int dim>
-  inline Tensor<1, dim>
-  BoundaryPoint<dim>::displacement() const
-  {
-    Tensor<1, dim> u;
-    for (unsigned int d = 0; d < dim; ++d)
-      u[d] = values[5 + dim + d];
-    return u;
-  }
-
-
-
-  template <int dim>
-  inline void
-  BoundaryPoint<dim>::set_displacement(const Tensor<1, dim> &displacement)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      values[5 + dim + d] = displacement[d];
-  }
-
-
-
-  template <int dim>
-  inline Tensor<2, dim>
-  BoundaryPoint<dim>::deformation_gradient() const
-  {
-    Tensor<2, dim> F;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        F[i][j] = values[5 + 2 * dim + i * dim + j];
-    return F;
-  }
-
-
-
-  template <int dim>
-  inline void
-  BoundaryPoint<dim>::set_deformation_gradient(const Tensor<2, dim> &gradient)
-  {
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        values[5 + 2 * dim + i * dim + j] = gradient[i][j];
-  }
-
-
-
-  template <int dim>
-  inline Tensor<1, dim>
-  BoundaryPoint<dim>::side() const
-  {
-    Tensor<1, dim> m;
-    for (unsigned int d = 0; d < dim; ++d)
-      m[d] = values[5 + 2 * dim + dim * dim + d];
-    return m;
-  }
-
-
-
-  template <int dim>
-  inline void
-  BoundaryPoint<dim>::set_side(const Tensor<1, dim> &side)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      values[5 + 2 * dim + dim * dim + d] = side[d];
+      values[n_common + 2 + d] = normal[d];
   }
 
 
@@ -366,7 +190,7 @@ namespace EBSMPM
   BoundaryPoint<dim>::normal() const
   {
     const Tensor<1, dim> n =
-      transpose(invert(deformation_gradient())) * reference_normal();
+      transpose(invert(this->deformation_gradient())) * reference_normal();
     return n / n.norm();
   }
 

@@ -10,7 +10,7 @@
 #ifndef ebsmpm_particles_material_point_h
 #define ebsmpm_particles_material_point_h
 
-#include <ebsmpm/base/config.h>
+#include <ebsmpm/particles/point_view.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
@@ -40,18 +40,17 @@ namespace EBSMPM
    * A new point has the volume given, $F=I$, is "damageable", and all else is
    * zero. Position, position in the cell, and number are those of the particle.
    *
-   * The numbers are stored in the order reference volume, damage, history, peak
-   * damage, frozen, damageable, displacement (dim), deformation gradient
-   * (dim*dim, row by row), side (dim).
+   * After those of PointView, the numbers are stored in the order reference
+   * volume, history, damageable.
    */
   template <int dim>
-  class MaterialPoint
+  class MaterialPoint : public PointView<dim>
   {
   public:
     /**
      * How many numbers a point carries.
      */
-    static constexpr unsigned int n_properties = 6 + 2 * dim + dim * dim;
+    static constexpr unsigned int n_properties = PointView<dim>::n_common + 3;
 
     /**
      * Constructor. @p properties are those of the particle.
@@ -68,15 +67,6 @@ namespace EBSMPM
     reference_volume() const;
 
     /**
-     * The damage $d$.
-     */
-    double &
-    damage();
-
-    double
-    damage() const;
-
-    /**
      * The history $H$: the largest tensile energy density so far.
      */
     double &
@@ -86,24 +76,6 @@ namespace EBSMPM
     history() const;
 
     /**
-     * The largest damage so far, or 1 next to a slit.
-     */
-    double &
-    peak_damage();
-
-    double
-    peak_damage() const;
-
-    /**
-     * 1 if side() is settled once and for all, 0 otherwise.
-     */
-    double &
-    label_frozen();
-
-    double
-    label_frozen() const;
-
-    /**
      * 1 if the point can be damaged, 0 otherwise.
      */
     double &
@@ -111,34 +83,6 @@ namespace EBSMPM
 
     double
     damageable() const;
-
-    /**
-     * The total displacement $u$.
-     */
-    Tensor<1, dim>
-    displacement() const;
-
-    void
-    set_displacement(const Tensor<1, dim> &displacement);
-
-    /**
-     * The deformation gradient $F$, without the trivial row and column in 2d.
-     */
-    Tensor<2, dim>
-    deformation_gradient() const;
-
-    void
-    set_deformation_gradient(const Tensor<2, dim> &gradient);
-
-    /**
-     * The unit vector that points towards the crack next to the point; zero if
-     * there is none.
-     */
-    Tensor<1, dim>
-    side() const;
-
-    void
-    set_side(const Tensor<1, dim> &side);
 
     /**
      * Give all properties the values of a new point of the given volume.
@@ -166,7 +110,8 @@ namespace EBSMPM
     component_interpretations();
 
   private:
-    double *const values;
+    using PointView<dim>::n_common;
+    using PointView<dim>::values;
   };
 
 
@@ -177,7 +122,7 @@ namespace EBSMPM
 
   template <int dim>
   inline MaterialPoint<dim>::MaterialPoint(const ArrayView<double> &properties)
-    : values(properties.data())
+    : PointView<dim>(properties.data())
   {
     AssertDimension(properties.size(), n_properties);
   }
@@ -188,7 +133,7 @@ namespace EBSMPM
   inline double &
   MaterialPoint<dim>::reference_volume()
   {
-    return values[0];
+    return values[n_common];
   }
 
 
@@ -197,25 +142,7 @@ namespace EBSMPM
   inline double
   MaterialPoint<dim>::reference_volume() const
   {
-    return values[0];
-  }
-
-
-
-  template <int dim>
-  inline double &
-  MaterialPoint<dim>::damage()
-  {
-    return values[1];
-  }
-
-
-
-  template <int dim>
-  inline double
-  MaterialPoint<dim>::damage() const
-  {
-    return values[1];
+    return values[n_common];
   }
 
 
@@ -224,7 +151,7 @@ namespace EBSMPM
   inline double &
   MaterialPoint<dim>::history()
   {
-    return values[2];
+    return values[n_common + 1];
   }
 
 
@@ -233,43 +160,7 @@ namespace EBSMPM
   inline double
   MaterialPoint<dim>::history() const
   {
-    return values[2];
-  }
-
-
-
-  template <int dim>
-  inline double &
-  MaterialPoint<dim>::peak_damage()
-  {
-    return values[3];
-  }
-
-
-
-  template <int dim>
-  inline double
-  MaterialPoint<dim>::peak_damage() const
-  {
-    return values[3];
-  }
-
-
-
-  template <int dim>
-  inline double &
-  MaterialPoint<dim>::label_frozen()
-  {
-    return values[4];
-  }
-
-
-
-  template <int dim>
-  inline double
-  MaterialPoint<dim>::label_frozen() const
-  {
-    return values[4];
+    return values[n_common + 1];
   }
 
 
@@ -278,7 +169,7 @@ namespace EBSMPM
   inline double &
   MaterialPoint<dim>::damageable()
   {
-    return values[5];
+    return values[n_common + 2];
   }
 
 
@@ -287,75 +178,7 @@ namespace EBSMPM
   inline double
   MaterialPoint<dim>::damageable() const
   {
-    return values[5];
-  }
-
-
-
-  template <int dim>
-  inline Tensor<1, dim>
-  MaterialPoint<dim>::displacement() const
-  {
-    Tensor<1, dim> u;
-    for (unsigned int d = 0; d < dim; ++d)
-      u[d] = values[6 + d];
-    return u;
-  }
-
-
-
-  template <int dim>
-  inline void
-  MaterialPoint<dim>::set_displacement(const Tensor<1, dim> &displacement)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      values[6 + d] = displacement[d];
-  }
-
-
-
-  template <int dim>
-  inline Tensor<2, dim>
-  MaterialPoint<dim>::deformation_gradient() const
-  {
-    Tensor<2, dim> F;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        F[i][j] = values[6 + dim + i * dim + j];
-    return F;
-  }
-
-
-
-  template <int dim>
-  inline void
-  MaterialPoint<dim>::set_deformation_gradient(const Tensor<2, dim> &gradient)
-  {
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        values[6 + dim + i * dim + j] = gradient[i][j];
-  }
-
-
-
-  template <int dim>
-  inline Tensor<1, dim>
-  MaterialPoint<dim>::side() const
-  {
-    Tensor<1, dim> m;
-    for (unsigned int d = 0; d < dim; ++d)
-      m[d] = values[6 + dim + dim * dim + d];
-    return m;
-  }
-
-
-
-  template <int dim>
-  inline void
-  MaterialPoint<dim>::set_side(const Tensor<1, dim> &side)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      values[6 + dim + dim * dim + d] = side[d];
+    return values[n_common + 2];
   }
 
 
