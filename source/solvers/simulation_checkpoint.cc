@@ -38,7 +38,7 @@ namespace EBSMPM
     using Increments = std::vector<std::pair<double, double>>;
 
     /** To be increased when checkpoints of before cannot be read any more. */
-    constexpr unsigned int format_version = 1;
+    constexpr unsigned int format_version = 2;
 
     /** Part of a load within which two of them are the same. */
     constexpr double load_tolerance = 1e-10;
