@@ -78,7 +78,12 @@ def main():
         axes.set_ylabel("x")
         axes.set_zlabel("y")
         axes.view_init(elev=25, azim=-60)
-        figure.colorbar(drawn, ax=axes, shrink=0.6, label="y" if i == 0 else "damage")
+        # Short axes have no room for many numbers.
+        axes.locator_params(axis="y", nbins=3)
+        axes.locator_params(axis="z", nbins=3)
+        figure.colorbar(
+            drawn, ax=axes, shrink=0.6, pad=0.15, label="y" if i == 0 else "damage"
+        )
         axes.set_title(title)
     figure.tight_layout()
     figure.savefig(options.output)
