@@ -47,7 +47,7 @@ namespace EBSMPM
    *
    * | Method    | preconditioner                      | where                |
    * | --------- | ----------------------------------- | -------------------- |
-   * | mumps     | MumpsFactorization, $LDL^T$         | two dimensions       |
+   * | mumps     | MumpsFactorization, $LDL^T$         | 2-D, or a crack      |
    * | klu       | KluFactorization, $LU$, serial      | if there is no MUMPS |
    * | cg_amg    | AmgHierarchy                        | large problems       |
    * | gmres_amg | AmgHierarchy, GMRES from the start  | indefinite matrices  |
