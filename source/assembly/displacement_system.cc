@@ -424,15 +424,6 @@ namespace EBSMPM
 
 
 
-  template <int dim>
-  double
-  DisplacementSystem<dim>::penalty() const
-  {
-    return beta;
-  }
-
-
-
   template class DisplacementSystem<2>;
   template class DisplacementSystem<3>;
 } // namespace EBSMPM

@@ -23,23 +23,14 @@ namespace EBSMPM
                                          const BoundaryState<dim> &boundary,
                                          const LA::FieldVector    &increment)
   {
-    increment.update_ghost_values();
-    branches.resize(points->n_points());
-    evaluate_material(state,
-                      increment,
-                      [&](const unsigned int q,
-                          const Tensor<1, dim> &,
-                          const Tensor<2, dim> &F) {
-                        branches[q] = material.branch(F);
-                      });
-    boundary_branches.resize(boundary_points->n_points());
-    evaluate_boundary(boundary,
-                      increment,
-                      [&](const unsigned int q,
-                          const Tensor<1, dim> &,
-                          const Tensor<2, dim> &F) {
-                        boundary_branches[q] = material.branch(F);
-                      });
+    const auto hold = [&](const Update &update) {
+      std::vector<EnergyBranch> result;
+      for (const auto &F : update.F)
+        result.push_back(material.branch(F));
+      return result;
+    };
+    branches          = hold(update_points(state, increment));
+    boundary_branches = hold(update_points(boundary, increment));
   }
 
 
@@ -143,16 +134,17 @@ namespace EBSMPM
     Update update;
     update.displacement_increment.resize(at.n_points());
     update.F.resize(at.n_points());
-    evaluate(at,
-             groups,
-             F_n,
-             increment,
-             [&](const unsigned int    q,
-                 const Tensor<1, dim> &value,
-                 const Tensor<2, dim> &F) {
-               update.displacement_increment[q] = value;
-               update.F[q]                      = F;
-             });
+    evaluate_field<dim>(at,
+                        groups,
+                        spline_space->lattice(),
+                        spline_space->degree(),
+                        increment,
+                        [&](const unsigned int                     q,
+                            const Tensor<1, dim>                  &value,
+                            const std::array<Tensor<1, dim>, dim> &gradient) {
+                          update.displacement_increment[q] = value;
+                          update.F[q] = deformation<dim>(gradient, F_n[q]);
+                        });
     return update;
   }
 
@@ -164,64 +156,14 @@ namespace EBSMPM
                                             const LA::FieldVector    &increment,
                                             std::vector<double> &driving) const
   {
-    increment.update_ghost_values();
-    driving.resize(boundary_points->n_points());
-    evaluate_boundary(boundary,
-                      increment,
-                      [&](const unsigned int    q,
-                          const Tensor<1, dim> &value,
-                          const Tensor<2, dim> &F) {
-                        const Tensor<2, dim> P = material.degraded_stress(F);
-                        const auto           w = mismatch(boundary, q, value);
-                        driving[q]             = w * (P * boundary.normal[q]);
-                      });
-  }
-
-
-
-  template <int dim>
-  template <typename Visitor>
-  void
-  DisplacementSystem<dim>::evaluate_material(const MaterialState<dim> &state,
-                                             const LA::FieldVector &increment,
-                                             const Visitor         &visit) const
-  {
-    evaluate(*points, material_groups, state.F, increment, visit);
-  }
-
-
-
-  template <int dim>
-  template <typename Visitor>
-  void
-  DisplacementSystem<dim>::evaluate_boundary(const BoundaryState<dim> &boundary,
-                                             const LA::FieldVector &increment,
-                                             const Visitor         &visit) const
-  {
-    evaluate(*boundary_points, boundary_groups, boundary.F, increment, visit);
-  }
-
-
-
-  template <int dim>
-  template <typename Visitor>
-  void
-  DisplacementSystem<dim>::evaluate(const CellPoints<dim>             &at,
-                                    const PointGroups<dim>            &groups,
-                                    const std::vector<Tensor<2, dim>> &F_n,
-                                    const LA::FieldVector &increment,
-                                    const Visitor         &visit) const
-  {
-    evaluate_field<dim>(at,
-                        groups,
-                        spline_space->lattice(),
-                        spline_space->degree(),
-                        increment,
-                        [&](const unsigned int                     q,
-                            const Tensor<1, dim>                  &value,
-                            const std::array<Tensor<1, dim>, dim> &gradient) {
-                          visit(q, value, deformation<dim>(gradient, F_n[q]));
-                        });
+    const Update update = update_points(boundary, increment);
+    driving.resize(update.F.size());
+    for (unsigned int q = 0; q < driving.size(); ++q)
+      {
+        const Tensor<2, dim> P = material.degraded_stress(update.F[q]);
+        const auto w = mismatch(boundary, q, update.displacement_increment[q]);
+        driving[q]   = w * (P * boundary.normal[q]);
+      }
   }
 
 

@@ -92,8 +92,6 @@ namespace EBSMPM
                                     TimerOutput          *timer_)
     : material_points(points)
     , boundary_material_points(boundary_points)
-    , material(material)
-    , degradation(degradation)
     , data(data)
     , own_timer(timer_ != nullptr ?
                   nullptr :

@@ -290,10 +290,6 @@ namespace EBSMPM
     const PointGroups<dim> &
     groups() const;
 
-    /** The penalty factor $\beta$. */
-    double
-    penalty() const;
-
   private:
     /**
      * Compute the residual and #tangent: of all functions, if @p wanted is a
@@ -345,33 +341,6 @@ namespace EBSMPM
                   const PointGroups<dim>            &groups,
                   const std::vector<Tensor<2, dim>> &F_n,
                   const LA::FieldVector             &increment) const;
-
-    /**
-     * Call <tt>visit(q, value, F)</tt> for all material points, with the
-     * increment of displacement and the deformation gradient at the end of the
-     * step. The ghost entries of @p increment must be up to date.
-     */
-    template <typename Visitor>
-    void
-    evaluate_material(const MaterialState<dim> &state,
-                      const LA::FieldVector    &increment,
-                      const Visitor            &visit) const;
-
-    /** The same for all boundary points. */
-    template <typename Visitor>
-    void
-    evaluate_boundary(const BoundaryState<dim> &boundary,
-                      const LA::FieldVector    &increment,
-                      const Visitor            &visit) const;
-
-    /** The same for either kind, with $\mathbf F_n$ at the points. */
-    template <typename Visitor>
-    void
-    evaluate(const CellPoints<dim>             &at,
-             const PointGroups<dim>            &groups,
-             const std::vector<Tensor<2, dim>> &F_n,
-             const LA::FieldVector             &increment,
-             const Visitor                     &visit) const;
 
     const Material<dim> &material;
     const Degradation   &degradation;

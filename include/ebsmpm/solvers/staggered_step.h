@@ -385,8 +385,6 @@ namespace EBSMPM
 
     MaterialPoints<dim>         &material_points;
     BoundaryPoints<dim>         &boundary_material_points;
-    const Material<dim>         &material;
-    const Degradation           &degradation;
     const AdditionalData         data;
     std::unique_ptr<TimerOutput> own_timer;
     TimerOutput                 *timer;
