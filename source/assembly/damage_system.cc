@@ -112,10 +112,9 @@ namespace EBSMPM
     unsigned int list = 0;
     for (const auto &group : material_groups.groups())
       {
-        Tensor<1, dim> inverse_h = spline_space->lattice().cell_extents(
-          points->cells()[group.cell].level);
-        for (unsigned int d = 0; d < dim; ++d)
-          inverse_h[d] = 1. / inverse_h[d];
+        const Tensor<1, dim> inverse_h =
+          spline_space->lattice().inverse_cell_extents(
+            points->cells()[group.cell].level);
 
         std::fill(local_vector.begin(), local_vector.end(), 0.);
         double *x = X.data();

@@ -14,6 +14,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <type_traits>
 
 namespace EBSMPM
 {
@@ -22,86 +23,102 @@ namespace EBSMPM
     namespace
     {
       /**
-       * A tile of C of n_rows times n_vectors vectors, which stays in registers
-       * while the inner dimension is summed up.
+       * DenseKernels::transposed_product() for some columns of B and C. It goes
+       * along panels, columns of the width of a tile, so that these columns of
+       * B, and all of A, stay in the first cache; and in a panel downwards from
+       * tile to tile, numbers of C that stay in registers while the inner
+       * dimension is summed up. Tiles are as large as there are registers for
+       * them: sums that are too few do not hide the latency of an addition.
+       *
+       * Heights of tiles are multiples of step: nine and 27 functions make
+       * tiles of three rows, 16 and 64 of four.
        */
-      template <unsigned int n_bytes,
-                unsigned int n_rows,
-                unsigned int n_vectors>
-      EBSMPM_IN_EACH_TARGET void
-      tile(const unsigned int n_inner,
-           const unsigned int n_columns,
-           const double      *A,
-           const unsigned int lda,
-           const double      *B,
-           double            *C,
-           const bool         add)
+      template <unsigned int n_bytes, unsigned int step>
+      struct TransposedProductTiles
       {
         using L = Lanes<n_bytes>;
 
-        typename L::type sum[n_rows][n_vectors] = {};
-        for (unsigned int k = 0; k < n_inner; ++k, A += lda, B += n_columns)
-          for (unsigned int v = 0; v < n_vectors; ++v)
-            {
-              const typename L::type b = L::load(B + L::n * v);
-              for (unsigned int i = 0; i < n_rows; ++i)
-                sum[i][v] += A[i] * b;
-            }
-        for (unsigned int i = 0; i < n_rows; ++i)
-          for (unsigned int v = 0; v < n_vectors; ++v)
-            {
-              double *const c = C + i * n_columns + L::n * v;
-              L::store(add ? L::load(c) + sum[i][v] : sum[i][v], c);
-            }
-      }
+        /** Number of registers for the sums, how many are side by side, and the
+         * height beyond which tiles do not become faster. */
+        static constexpr unsigned int n_registers = (n_bytes == 64 ? 27 : 12);
+        static constexpr unsigned int max_n_vectors =
+          n_bytes == 64 ? 3 : (step == 4 ? 2 : 4);
+        static constexpr unsigned int max_height = 9;
+
+        const unsigned int n_inner;
+        const unsigned int n_rows;
+        const unsigned int n_columns;
+        const double      *A;
+        const unsigned int lda;
+        const double      *B;
+        double            *C;
+        const bool         add;
+        const unsigned int block_size;
+
+        /** Panels of so many vectors from column j on, then narrower ones. */
+        template <unsigned int n_vectors = max_n_vectors>
+        EBSMPM_IN_EACH_TARGET void
+        panels(unsigned int j = 0) const
+        {
+          constexpr unsigned int width = n_vectors * L::n;
+          constexpr unsigned int n_steps =
+            std::min(max_height / step, n_registers / (n_vectors * step));
+          for (; j + width <= n_columns; j += width)
+            tiles<n_vectors, n_steps>(n_rows_until(j + width), j);
+          if constexpr (n_vectors > 1)
+            panels<n_vectors - 1>(j);
+        }
+
+        /** The number of rows that are wanted in the columns before this. */
+        EBSMPM_IN_EACH_TARGET unsigned int
+        n_rows_until(const unsigned int end_column) const
+        {
+          if (block_size == 0)
+            return n_rows;
+          const unsigned int n_columns_of_step = step * block_size;
+          const unsigned int n_steps =
+            (end_column + n_columns_of_step - 1) / n_columns_of_step;
+          return std::min(n_rows, n_steps * step);
+        }
+
+        /** Tiles of so many steps, as long as they fit, then lower ones. */
+        template <unsigned int n_vectors, unsigned int n_steps>
+        EBSMPM_IN_EACH_TARGET void
+        tiles(const unsigned int end_row,
+              const unsigned int j,
+              unsigned int       i = 0) const
+        {
+          constexpr unsigned int height = n_steps * step;
+          for (; i + height <= end_row; i += height)
+            tile<height, n_vectors>(A + i, B + j, C + i * n_columns + j);
+          if constexpr (n_steps > 1)
+            tiles<n_vectors, n_steps - 1>(end_row, j, i);
+        }
+
+        template <unsigned int height, unsigned int n_vectors>
+        EBSMPM_IN_EACH_TARGET void
+        tile(const double *a, const double *b, double *c) const
+        {
+          typename L::type sums[height][n_vectors] = {};
+          for (unsigned int k = 0; k < n_inner; ++k, a += lda, b += n_columns)
+            for (unsigned int v = 0; v < n_vectors; ++v)
+              {
+                const typename L::type b_v = L::load(b + L::n * v);
+                for (unsigned int i = 0; i < height; ++i)
+                  sums[i][v] += a[i] * b_v;
+              }
+          for (unsigned int i = 0; i < height; ++i, c += n_columns)
+            for (unsigned int v = 0; v < n_vectors; ++v)
+              {
+                double *const to = c + L::n * v;
+                L::store(add ? L::load(to) + sums[i][v] : sums[i][v], to);
+              }
+        }
+      };
 
 
 
-      /** Rows of tiles, below each other, in some columns of C. */
-      template <unsigned int n_bytes, unsigned int n_vectors>
-      EBSMPM_IN_EACH_TARGET void
-      panel(const unsigned int n_inner,
-            const unsigned int n_rows,
-            const unsigned int n_columns,
-            const double      *A,
-            const unsigned int lda,
-            const double      *B,
-            double            *C,
-            const bool         add)
-      {
-        unsigned int i = 0;
-        if (n_rows % 3 == 0)
-          for (; i < n_rows; i += 3)
-            tile<n_bytes, 3, n_vectors>(
-              n_inner, n_columns, A + i, lda, B, C + i * n_columns, add);
-
-        constexpr unsigned int narrow = std::min(n_vectors, 2U);
-        for (; i + 4 <= n_rows; i += 4)
-          for (unsigned int v = 0; v < n_vectors; v += narrow)
-            {
-              const unsigned int j = v * Lanes<n_bytes>::n;
-              tile<n_bytes, 4, narrow>(n_inner,
-                                       n_columns,
-                                       A + i,
-                                       lda,
-                                       B + j,
-                                       C + i * n_columns + j,
-                                       add);
-            }
-        for (; i < n_rows; ++i)
-          tile<n_bytes, 1, n_vectors>(
-            n_inner, n_columns, A + i, lda, B, C + i * n_columns, add);
-      }
-
-
-
-      /**
-       * DenseKernels::transposed_product() for registers of which there are
-       * sixteen or more. It goes along columns of the width of a tile, so that
-       * these columns of B, and all of A, stay in the first cache. Nine and 27
-       * functions make tiles of three rows, others of four. Sums that are too
-       * few do not hide the latency of an addition.
-       */
+      /** See DenseKernels::transposed_product(). */
       struct TransposedProduct
       {
         template <unsigned int n_bytes>
@@ -116,44 +133,28 @@ namespace EBSMPM
             const bool         add,
             const unsigned int block_size)
         {
-          constexpr unsigned int n_vectors = (n_bytes == 64 ? 2 : 4);
-          constexpr unsigned int width     = n_vectors * Lanes<n_bytes>::n;
-          constexpr unsigned int few       = padding / Lanes<n_bytes>::n;
-
-          const auto rows_of = [&](const unsigned int end_column) {
-            // Whole tiles of three rows or of four.
-            const unsigned int height = (n_rows % 3 == 0 ? 3 : 4);
-            return block_size == 0 ?
-                     n_rows :
-                     std::min(n_rows,
-                              (end_column + height * block_size - 1) /
-                                (height * block_size) * height);
-          };
-          unsigned int j = 0;
-          for (; j + width <= n_columns; j += width)
-            panel<n_bytes, n_vectors>(n_inner,
-                                      rows_of(j + width),
-                                      n_columns,
-                                      A,
-                                      lda,
-                                      B + j,
-                                      C + j,
-                                      add);
-          for (; j < n_columns; j += padding)
-            panel<n_bytes, few>(n_inner,
-                                rows_of(j + padding),
-                                n_columns,
-                                A,
-                                lda,
-                                B + j,
-                                C + j,
-                                add);
+          if (n_rows % 3 == 0)
+            TransposedProductTiles<n_bytes, 3>{
+              n_inner, n_rows, n_columns, A, lda, B, C, add, block_size}
+              .panels();
+          else if (n_rows % 4 == 0)
+            TransposedProductTiles<n_bytes, 4>{
+              n_inner, n_rows, n_columns, A, lda, B, C, add, block_size}
+              .panels();
+          else
+            TransposedProductTiles<n_bytes, 1>{
+              n_inner, n_rows, n_columns, A, lda, B, C, add, block_size}
+              .panels();
         }
       };
 
 
 
-      /** See DenseKernels::row_products(). */
+      /**
+       * See DenseKernels::row_products(). Registers of four numbers suffice for
+       * rows of nine or 27. As many columns as a register has numbers are
+       * summed up side by side.
+       */
       struct RowProducts
       {
         template <unsigned int n_bytes>
@@ -164,29 +165,74 @@ namespace EBSMPM
             const unsigned int n_columns,
             const double      *B,
             const unsigned int ld,
-            double            *C)
+            double            *C,
+            const unsigned int ldc)
         {
-          using L = Lanes<n_bytes>;
-          for (unsigned int j = 0; j < n_columns; ++j)
+          using L = ShortLanes<n_bytes>;
+
+          unsigned int j = 0;
+          for (; j + L::n <= n_columns; j += L::n, B += L::n * ld)
             for (unsigned int i = 0; i < n_rows; ++i)
               {
-                typename L::type sum = {};
+                typename L::type sums[L::n] = {};
                 for (unsigned int k = 0; k < n_inner; k += L::n)
-                  sum += L::load(A + i * ld + k) * L::load(B + j * ld + k);
-                double total = sum[0];
-                for (unsigned int l = 1; l < L::n; ++l)
-                  total += sum[l];
-                C[j * n_rows + i] = total;
+                  {
+                    const typename L::type a = L::load(A + i * ld + k);
+                    for (unsigned int l = 0; l < L::n; ++l)
+                      sums[l] += a * L::load(B + l * ld + k);
+                  }
+                L::store(L::totals(sums), C + i * ldc + j);
+              }
+          for (; j < n_columns; ++j, B += ld)
+            for (unsigned int i = 0; i < n_rows; ++i)
+              {
+                double sum = 0.;
+                for (unsigned int k = 0; k < n_inner; ++k)
+                  sum += A[i * ld + k] * B[k];
+                C[i * ldc + j] = sum;
               }
         }
       };
 
 
 
-      /** See DenseKernels::combine_rows(). */
+      /**
+       * See DenseKernels::combine_rows(). Registers of four numbers suffice,
+       * since blocks have four or nine.
+       */
       template <int dim, int n_rows>
       struct CombineRows
       {
+        static constexpr unsigned int n_both = dim * dim;
+
+        /**
+         * The coefficients of the row $(p,j)$ for row $(p,l)$, a block for each
+         * pair of them, for some points.
+         */
+        template <unsigned int n_lanes>
+        struct Coefficients
+        {
+          static constexpr unsigned int n_points = 4;
+          static constexpr unsigned int size =
+            (n_both + n_lanes - 1) / n_lanes * n_lanes;
+
+          double blocks[n_points][n_rows][n_rows][size] = {};
+
+          EBSMPM_IN_EACH_TARGET void
+          fill(const unsigned int n, const double *c, const unsigned int ldc)
+          {
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int k = i; k < dim; ++k)
+                for (unsigned int j = 0; j < n_rows; ++j)
+                  for (unsigned int l = 0; l < n_rows; ++l, c += ldc)
+                    for (unsigned int p = 0; p < n; ++p)
+                      {
+                        blocks[p][j][l][i * dim + k] = c[p];
+                        blocks[p][l][j][k * dim + i] = c[p];
+                      }
+          }
+        };
+
         template <unsigned int n_bytes>
         static EBSMPM_IN_EACH_TARGET void
         run(const unsigned int n_points,
@@ -198,45 +244,82 @@ namespace EBSMPM
             double            *B,
             const unsigned int ldb)
         {
-          using L                       = Lanes<n_bytes>;
-          constexpr unsigned int n_both = dim * dim;
-          constexpr unsigned int n_v    = (n_both + L::n - 1) / L::n;
-          const unsigned int     step   = n_rows * ldc;
+          using L                          = ShortLanes<n_bytes>;
+          using Vector                     = typename L::type;
+          using Some                       = Coefficients<L::n>;
+          constexpr unsigned int n_vectors = Some::size / L::n;
 
-          double coefficients[n_rows][n_v * L::n] = {};
-          for (unsigned int p = 0; p < n_points; ++p, ++c, G += n_rows * ldg)
-            for (unsigned int j = 0; j < n_rows; ++j, B += ldb)
-              {
-                const double *of_pair = c;
-                for (unsigned int i = 0; i < dim; ++i)
-                  for (unsigned int k = i; k < dim; ++k)
-                    {
-                      for (unsigned int l = 0; l < n_rows; ++l)
+          // Reading vectors of what was written number by number just before
+          // would have to wait for it, hence several points.
+          Some of_some;
+          for (unsigned int begin = 0; begin < n_points;
+               begin += Some::n_points)
+            {
+              const unsigned int n_here =
+                std::min(n_points - begin, Some::n_points);
+              of_some.fill(n_here, c + begin, ldc);
+              for (unsigned int p = 0; p < n_here; ++p, G += n_rows * ldg)
+                for (unsigned int j = 0; j < n_rows; ++j, B += ldb)
+                  {
+                    Vector c_j[n_rows][n_vectors];
+                    for (unsigned int l = 0; l < n_rows; ++l)
+                      for (unsigned int v = 0; v < n_vectors; ++v)
+                        c_j[l][v] = L::load(of_some.blocks[p][j][l] + v * L::n);
+
+                    // The last vector reaches into the next block, which is
+                    // yet to come, or into the padding, with zeros.
+                    double *b = B;
+                    for (unsigned int J = 0; J < n; ++J, b += n_both)
+                      for (unsigned int v = 0; v < n_vectors; ++v)
                         {
-                          coefficients[l][i * dim + k] =
-                            of_pair[j * step + l * ldc];
-                          coefficients[l][k * dim + i] =
-                            of_pair[l * step + j * ldc];
+                          Vector sum = c_j[0][v] * G[J];
+                          for (unsigned int l = 1; l < n_rows; ++l)
+                            sum += c_j[l][v] * G[l * ldg + J];
+                          L::store(sum, b + v * L::n);
                         }
-                      of_pair += n_rows * step;
-                    }
-                typename L::type c_j[n_rows][n_v];
-                for (unsigned int l = 0; l < n_rows; ++l)
-                  for (unsigned int v = 0; v < n_v; ++v)
-                    c_j[l][v] = L::load(coefficients[l] + v * L::n);
+                  }
+            }
+        }
+      };
 
-                // The last vector reaches into the next block, which is yet to
-                // come, or into the padding, with zeros.
-                double *b = B;
-                for (unsigned int J = 0; J < n; ++J, b += n_both)
-                  for (unsigned int v = 0; v < n_v; ++v)
-                    {
-                      typename L::type sum = c_j[0][v] * G[J];
-                      for (unsigned int l = 1; l < n_rows; ++l)
-                        sum += c_j[l][v] * G[l * ldg + J];
-                      L::store(sum, b + v * L::n);
-                    }
-              }
+
+
+      /** See DenseKernels::complete_symmetric(). */
+      template <int dim>
+      struct CompleteSymmetric
+      {
+        template <unsigned int n_bytes>
+        static EBSMPM_IN_EACH_TARGET void
+        run(const unsigned int n, const unsigned int ld, double *C)
+        {
+          for (unsigned int I = 1; I < n; ++I)
+            for (unsigned int J = 0; J < I; ++J)
+              transpose_block<n_bytes>(C + J * ld + I * dim * dim,
+                                       C + I * ld + J * dim * dim);
+        }
+
+        template <unsigned int n_bytes>
+        static EBSMPM_IN_EACH_TARGET void
+        transpose_block(const double *from, double *to)
+        {
+          if constexpr (n_bytes >= 32 && dim > 1)
+            {
+              using L             = Lanes<32>;
+              const L::type lower = L::load(from);
+              if constexpr (dim == 2)
+                L::store(EBSMPM_SHUFFLE(4, lower, lower, 0, 2, 1, 3), to);
+              else
+                {
+                  const L::type upper = L::load(from + 4);
+                  L::store(EBSMPM_SHUFFLE(4, lower, upper, 0, 3, 6, 1), to);
+                  L::store(EBSMPM_SHUFFLE(4, lower, upper, 4, 7, 2, 5), to + 4);
+                  to[8] = from[8];
+                }
+            }
+          else
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int k = 0; k < dim; ++k)
+                to[i * dim + k] = from[k * dim + i];
         }
       };
     } // namespace
@@ -266,15 +349,7 @@ namespace EBSMPM
     void
     complete_symmetric(const unsigned int n, const unsigned int ld, double *C)
     {
-      for (unsigned int I = 1; I < n; ++I)
-        for (unsigned int J = 0; J < I; ++J)
-          {
-            const double *from = C + J * ld + I * dim * dim;
-            double       *to   = C + I * ld + J * dim * dim;
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int k = 0; k < dim; ++k)
-                to[i * dim + k] = from[k * dim + i];
-          }
+      run_best<CompleteSymmetric<dim>>(n, ld, C);
     }
 
 
@@ -286,11 +361,12 @@ namespace EBSMPM
                  const unsigned int n_columns,
                  const double      *B,
                  const unsigned int ld,
-                 double            *C)
+                 double            *C,
+                 const unsigned int ldc)
     {
       Assert(ld >= padded(n_inner),
              ExcMessage("Rows are not padded, see DenseKernels::padding."));
-      run_best<RowProducts>(n_inner, n_rows, A, n_columns, B, ld, C);
+      run_best<RowProducts>(n_inner, n_rows, A, n_columns, B, ld, C, ldc);
     }
 
 

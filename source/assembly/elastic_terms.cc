@@ -86,16 +86,16 @@ namespace EBSMPM
                                dim * n_points,
                                product.row(0, 0),
                                stride,
-                               gradients.data());
+                               gradients.data(),
+                               dim * n_points);
 
     batch.reinit(n_points);
-    const double *gradient_p = gradients.data();
-    for (unsigned int p = 0; p < n_points; ++p, gradient_p += dim * dim)
+    for (unsigned int p = 0; p < n_points; ++p)
       {
         std::array<Tensor<1, dim>, dim> gradient;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int d = 0; d < dim; ++d)
-            gradient[a][d] = gradient_p[d * dim + a];
+            gradient[a][d] = gradients[(a * n_points + p) * dim + d];
 
         const unsigned int q = local.point(p);
         batch.set(p,

@@ -43,9 +43,7 @@ namespace EBSMPM
   {
     go_on(points_, groups_, group_);
     inverse_h =
-      space->lattice().cell_extents(points->cells()[group->cell].level);
-    for (unsigned int d = 0; d < dim; ++d)
-      inverse_h[d] = 1. / inverse_h[d];
+      space->lattice().inverse_cell_extents(points->cells()[group->cell].level);
     std::fill(residual.begin(), residual.end(), Tensor<1, dim>());
     tangent_begun = false;
   }

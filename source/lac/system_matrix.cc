@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 
 namespace EBSMPM
 {
@@ -346,57 +347,105 @@ namespace EBSMPM
 
 
 
-  void
-  SystemMatrix::close_row(const unsigned int function)
-  {
-    const unsigned int nc    = n_components;
-    const unsigned int width = row_length(function);
-    double            *to    = row(function);
-    for (unsigned int a = 0; a < nc; ++a)
-      {
-        const double *from = open_row(function) + nc * a;
-        for (unsigned int k = 0; k < width; ++k, from += nc * nc)
-          for (unsigned int b = 0; b < nc; ++b)
-            *to++ = from[b];
-      }
-  }
-
-
-
   namespace
   {
+    /**
+     * Add an array to another one, with registers that become smaller as less
+     * is left.
+     */
+    template <unsigned int n_bytes>
+    EBSMPM_IN_EACH_TARGET void
+    add_array(const unsigned int length, const double *from, double *to)
+    {
+      if constexpr (n_bytes == sizeof(double))
+        for (unsigned int k = 0; k < length; ++k)
+          to[k] += from[k];
+      else
+        {
+          using L        = Lanes<n_bytes>;
+          unsigned int k = 0;
+          for (; k + L::n <= length; k += L::n)
+            L::store(L::load(to + k) + L::load(from + k), to + k);
+          add_array<n_bytes / 2>(length - k, from + k, to + k);
+        }
+    }
+
+
+
     /**
      * Add a local matrix of n x n blocks to rows, along runs of columns that
      * are neighbours.
      */
+    template <unsigned int n_components>
     struct AddRuns
     {
+      static constexpr unsigned int block_size = n_components * n_components;
+
+      /** What quadratic splines have most of. */
+      static constexpr unsigned int frequent_size = 3;
+
       template <unsigned int n_bytes, typename Run>
       static EBSMPM_IN_EACH_TARGET void
       run(const unsigned int n,
-          const unsigned int block_size,
           const double      *values,
           const unsigned int stride,
           const Run         *run,
           double *const     *rows)
       {
-        using L = Lanes<n_bytes>;
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; j += run->size, ++run)
             {
-              const double      *from   = values + i * stride + j * block_size;
-              double            *to     = rows[i] + run->column * block_size;
-              const unsigned int length = run->size * block_size;
-
-              unsigned int k = 0;
-              for (; k + L::n <= length; k += L::n)
-                L::store(L::load(to + k) + L::load(from + k), to + k);
-              for (; k < length; ++k)
-                to[k] += from[k];
+              const double *from = values + i * stride + j * block_size;
+              double       *to   = rows[i] + run->column * block_size;
+              if (run->size == frequent_size)
+                add_array<n_bytes>(frequent_size * block_size, from, to);
+              else
+                add_array<n_bytes>(run->size * block_size, from, to);
             }
       }
     };
+
+
+
+    /** Copy a row of blocks to as many rows of numbers as blocks have. */
+    template <unsigned int n_components>
+    void
+    split_row(const unsigned int n_blocks, const double *from, double *to)
+    {
+      for (unsigned int a = 0; a < n_components; ++a, from += n_components)
+        for (unsigned int k = 0; k < n_blocks; ++k, to += n_components)
+          std::copy_n(from + k * n_components * n_components, n_components, to);
+    }
   } // namespace
+
+
+
+  template <typename Function>
+  inline void
+  SystemMatrix::with_components(const Function &function) const
+  {
+    switch (n_components)
+      {
+        case 1:
+          return function(std::integral_constant<unsigned int, 1>());
+        case 2:
+          return function(std::integral_constant<unsigned int, 2>());
+        case 3:
+          return function(std::integral_constant<unsigned int, 3>());
+        default:
+          Assert(false, ExcNotImplemented());
+      }
+  }
+
+
+
+  void
+  SystemMatrix::close_row(const unsigned int function)
+  {
+    with_components([&](const auto nc) {
+      split_row<nc()>(row_length(function), open_row(function), row(function));
+    });
+  }
 
 
 
@@ -419,12 +468,13 @@ namespace EBSMPM
           std::fill_n(row_pointers[i], block_size * row_length(f[i]), 0.);
       }
     if (values != nullptr)
-      run_best<AddRuns>(n,
-                        block_size,
-                        values,
-                        stride,
-                        runs.data() + run_begins[list],
-                        row_pointers.data());
+      with_components([&](const auto nc) {
+        run_best<AddRuns<nc()>>(n,
+                                values,
+                                stride,
+                                runs.data() + run_begins[list],
+                                row_pointers.data());
+      });
     for (unsigned int i = 0; i < n; ++i)
       if (last_lists[f[i]] == list && is_wanted(f[i]))
         close_row(f[i]);

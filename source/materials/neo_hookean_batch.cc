@@ -12,6 +12,7 @@
 #include <ebsmpm/materials/neo_hookean.h>
 
 #include <cmath>
+#include <limits>
 
 namespace EBSMPM
 {
@@ -21,19 +22,18 @@ namespace EBSMPM
      * Return $J^{-1/3}$ in all lanes. Most material is nearly incompressible;
      * where it is not, the library function has to do.
      */
-    template <unsigned int n_bytes>
-    EBSMPM_IN_EACH_TARGET typename Lanes<n_bytes>::type
-    inverse_cube_root(const typename Lanes<n_bytes>::type J)
+    template <typename L>
+    EBSMPM_IN_EACH_TARGET typename L::type
+    inverse_cube_root(const typename L::type J)
     {
-      constexpr unsigned int        n = Lanes<n_bytes>::n;
-      typename Lanes<n_bytes>::type y;
+      typename L::type y;
 
       bool near_one = true;
-      for (unsigned int l = 0; l < n; ++l)
-        near_one = near_one && J[l] > 0.5 && J[l] < 2.;
+      for (unsigned int l = 0; l < L::n; ++l)
+        near_one &= (J[l] > 0.5) & (J[l] < 2.);
       if (!near_one)
         {
-          for (unsigned int l = 0; l < n; ++l)
+          for (unsigned int l = 0; l < L::n; ++l)
             y[l] = 1. / std::cbrt(J[l]);
           return y;
         }
@@ -43,7 +43,7 @@ namespace EBSMPM
       y = 1.5658 - J * (0.734 - 0.1766 * J);
       for (unsigned int step = 0; step < 3; ++step)
         {
-          const typename Lanes<n_bytes>::type e = 1. - J * y * y * y;
+          const typename L::type e = 1. - J * y * y * y;
           y *= 1. + e * (1. / 3. + e * (2. / 9.));
         }
       return y;
@@ -54,10 +54,10 @@ namespace EBSMPM
     /**
      * Matrices of lanes.
      */
-    template <unsigned int n_bytes, int dim>
+    template <typename L, int dim>
     struct Matrix
     {
-      using Vector = typename Lanes<n_bytes>::type;
+      using Vector = typename L::type;
 
       Vector entries[dim][dim];
 
@@ -147,14 +147,16 @@ namespace EBSMPM
       static EBSMPM_IN_EACH_TARGET double
       run(const Task<dim> *task)
       {
-        using L      = Lanes<n_bytes>;
+        using L      = ShortLanes<n_bytes>;
         using Vector = typename L::type;
 
         MaterialBatch<dim> &batch = task->batch;
-        double              worst = 1.;
+        const Vector zero = {}, one = zero + 1., K_intact = zero + task->K;
+        const Vector infinity = zero + std::numeric_limits<double>::infinity();
+        Vector       worst    = one;
         for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
           {
-            Matrix<n_bytes, dim> F, F_n;
+            Matrix<L, dim> F, F_n;
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
                 {
@@ -165,47 +167,42 @@ namespace EBSMPM
             const Vector g      = L::load(batch.degradation() + p);
             const Vector branch = L::load(batch.branch() + p);
 
-            Matrix<n_bytes, dim> H     = F.cofactors();
-            Vector               J     = F[0][0] * H[0][0];
-            Vector               trace = F[0][0] * F[0][0] + (3. - dim);
+            Matrix<L, dim> H     = F.cofactors();
+            Vector         J     = F[0][0] * H[0][0];
+            Vector         trace = F[0][0] * F[0][0] + (3. - dim);
             for (unsigned int j = 1; j < dim; ++j)
               J += F[0][j] * H[0][j];
             for (unsigned int k = 1; k < dim * dim; ++k)
               trace += F[k / dim][k % dim] * F[k / dim][k % dim];
-            for (unsigned int l = 0; l < L::n; ++l)
-              if (worst > 0. && !(J[l] > 0. && std::isfinite(J[l])))
-                worst = J[l];
+            worst = ((J > zero) & (J < infinity)) ? worst : J;
 
             const Vector inverse_J = 1. / J;
             for (unsigned int k = 0; k < dim * dim; ++k)
               H[k / dim][k % dim] *= inverse_J;
 
             // Does the volumetric part degrade?
-            Vector K;
-            for (unsigned int l = 0; l < L::n; ++l)
-              {
-                const bool expanded =
-                  branch[l] == 0. ? J[l] >= 1. : branch[l] > 0.;
-                K[l] = task->K * (expanded || !task->split ? g[l] : 1.);
-              }
+            Vector K = task->K * g;
+            if (task->split)
+              K = ((branch == zero) ? (J >= one) : (branch > zero)) ? K :
+                                                                      K_intact;
 
-            const Vector root = inverse_cube_root<n_bytes>(J);
+            const Vector root = inverse_cube_root<L>(J);
             const Vector p1   = volume * task->G * g * root * root;
             K *= volume;
             const Vector p2 = 0.5 * K * (J * J - 1.) - p1 * trace * (1. / 3.);
 
             // Pushed forward to the start of the step.
-            const Matrix<n_bytes, dim> FF = F.times_transpose(F_n);
-            const Matrix<n_bytes, dim> HF = H.times_transpose(F_n);
+            const Matrix<L, dim> FF = F.times_transpose(F_n);
+            const Matrix<L, dim> HF = H.times_transpose(F_n);
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
                 L::store(p1 * FF[i][j] + p2 * HF[i][j], batch.stress(i, j) + p);
             if (!task->with_tangent)
               continue;
 
-            const Vector               c2 = (-2. / 3.) * p1;
-            const Vector               c3 = K * J * J + (2. / 9.) * p1 * trace;
-            const Matrix<n_bytes, dim> B  = F_n.times_transpose(F_n);
+            const Vector         c2 = (-2. / 3.) * p1;
+            const Vector         c3 = K * J * J + (2. / 9.) * p1 * trace;
+            const Matrix<L, dim> B  = F_n.times_transpose(F_n);
             for (unsigned int i = 0, pair = 0; i < dim; ++i)
               for (unsigned int k = i; k < dim; ++k, ++pair)
                 for (unsigned int j = 0; j < dim; ++j)
@@ -223,7 +220,10 @@ namespace EBSMPM
                       }
                   }
           }
-        return worst;
+        for (unsigned int l = 1; l < L::n; ++l)
+          if (worst[0] == 1.)
+            worst[0] = worst[l];
+        return worst[0];
       }
     };
   } // namespace

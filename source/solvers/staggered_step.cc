@@ -22,64 +22,6 @@
 
 namespace EBSMPM
 {
-  namespace
-  {
-    /** Read the labels of a point. */
-    template <int dim>
-    void
-    get_labels(const PointView<dim> &point,
-               const unsigned int    q,
-               CrackLabels<dim>     &labels)
-    {
-      labels.side[q]        = point.side();
-      labels.frozen[q]      = point.label_frozen() != 0.;
-      labels.peak_damage[q] = point.peak_damage();
-    }
-
-
-
-    /**
-     * Turn a side vector with the motion during the step: a normal transforms
-     * with $F^{-T}$.
-     */
-    template <int dim>
-    Tensor<1, dim>
-    convect(const Tensor<1, dim> &side,
-            const Tensor<2, dim> &F_new,
-            const Tensor<2, dim> &F_old)
-    {
-      if (side.norm_square() == 0.)
-        return side;
-      const Tensor<1, dim> moved =
-        transpose(invert(F_new * invert(F_old))) * side;
-      return moved / moved.norm();
-    }
-
-
-
-    /** Move a point, and write its deformation and its labels to it. */
-    template <int dim>
-    void
-    advance(const CellPoints<dim>                          &points,
-            const unsigned int                              q,
-            const typename DisplacementSystem<dim>::Update &update,
-            const Tensor<2, dim>                           &F_old,
-            const CrackLabels<dim>                         &labels,
-            PointView<dim>                                 &point)
-    {
-      const Tensor<1, dim> &increment = update.displacement_increment[q];
-      point.set_displacement(point.displacement() + increment);
-      point.set_deformation_gradient(update.F[q]);
-      point.set_side(convect(labels.side[q], update.F[q], F_old));
-      point.peak_damage()  = labels.peak_damage[q];
-      point.label_frozen() = labels.frozen[q];
-      auto particle        = points.particle(q);
-      particle->set_location(particle->get_location() + increment);
-    }
-  } // namespace
-
-
-
   template <int dim>
   StaggeredStep<dim>::StaggeredStep(MaterialPoints<dim>  &points,
                                     BoundaryPoints<dim>  &boundary_points,
@@ -128,31 +70,7 @@ namespace EBSMPM
   {
     TimerOutput::Scope scope(*timer, "points and spaces");
 
-    points.reinit(material_points.handler(), d_space.lattice());
-    boundary_points.reinit(boundary_material_points.handler(),
-                           d_space.lattice());
-
-    state.resize(points.n_points());
-    labels.resize(points.n_points());
-    current_volume.resize(points.n_points());
-    for (unsigned int q = 0; q < points.n_points(); ++q)
-      {
-        const MaterialPoint<dim> point(points.properties(q));
-        state.volume[q]   = point.reference_volume();
-        state.F[q]        = point.deformation_gradient();
-        current_volume[q] = determinant(state.F[q]) * state.volume[q];
-      }
-    boundary.resize(boundary_points.n_points());
-    boundary_labels.resize(boundary_points.n_points());
-    for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
-      {
-        const BoundaryPoint<dim> point(boundary_points.properties(q));
-        boundary.area[q]         = point.reference_area();
-        boundary.normal[q]       = point.reference_normal();
-        boundary.displacement[q] = point.displacement();
-        boundary.F[q]            = point.deformation_gradient();
-        boundary.boundary_id[q]  = point.boundary_id();
-      }
+    number_points();
 
     // The damage sees both sides of a crack.
     const FieldSnapshot<dim> old_rows(d_space, d_solver.former_rows());
@@ -237,34 +155,11 @@ namespace EBSMPM
     Report report;
 
     // Everything that is iterated starts from what the points say.
-    for (unsigned int q = 0; q < points.n_points(); ++q)
-      {
-        const MaterialPoint<dim> point(points.properties(q));
-        state.damage[q]  = point.damage();
-        state.history[q] = point.history();
-        get_labels(point, q, labels);
-      }
-    for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
-      {
-        const BoundaryPoint<dim> point(boundary_points.properties(q));
-        boundary.damage[q] = point.damage();
-        get_labels(point, q, boundary_labels);
-      }
+    read_iterates();
     conditions.apply(load, boundary_points, boundary);
     if (tractions != nullptr)
       tractions->apply(load, boundary_points, boundary);
 
-    const auto update_partition = [&]() {
-      TimerOutput::Scope scope(*timer, "crack partition");
-      const bool         changed = partition.update(points,
-                                            boundary_points,
-                                            current_volume,
-                                            state.damage,
-                                            labels,
-                                            boundary_labels);
-      space_is_current           = space_is_current && !changed;
-      return changed;
-    };
     // The first pass updates the partition after the damage, if it does, and
     // nothing asks for it before unless the damage has a boundary term.
     const bool comes_with_damage = data.damage && !data.damage_boundary_term &&
@@ -272,36 +167,9 @@ namespace EBSMPM
     bool partition_changed =
       data.partition && !comes_with_damage && update_partition();
 
-    const auto begin_increment = [&]() {
-      u_increment.reinit(0);
-      if (!space_is_current)
-        build_displacement_space();
-      else
-        u_system.initialize_vector(u_increment);
-      if (guess_factor != 0.)
-        {
-          last_increment.template transfer<dim>(u_space, u_increment);
-          u_increment *= guess_factor;
-        }
-
-      // The force of a broken specimen goes to zero, so compare residuals with
-      // the largest one so far; before there is any, with the first residual.
-      // That is large, as no Dirichlet data are met yet, but what is lost by
-      // roundoff is a part of it, and a piece that nothing holds never has a
-      // force.
-      if (first_residual == 0.)
-        {
-          LA::FieldVector residual = u_system.make_vector();
-          u_system.assemble_residual(state, boundary, u_increment, residual);
-          first_residual = residual.l2_norm();
-        }
-      force_scale = largest_force == 0. ?
-                      first_residual :
-                      std::max(largest_force, 1e-3 * first_residual);
-    };
     // The space is spared if the damage is going to change it.
     if (data.damage_boundary_term)
-      begin_increment();
+      begin_increment(guess_factor);
 
     const bool      iterate    = data.damage && data.max_passes > 1;
     bool            converged  = !iterate;
@@ -323,7 +191,7 @@ namespace EBSMPM
               partition_changed = true;
           }
         if (pass == 1 && !data.damage_boundary_term)
-          begin_increment();
+          begin_increment(guess_factor);
         else if (!space_is_current)
           build_displacement_space();
 
@@ -337,23 +205,7 @@ namespace EBSMPM
 
         update = u_system.update_points(state, u_increment);
         if (data.damage)
-          {
-            TimerOutput::Scope scope(*timer, "history");
-            u_system.driving_energy(update, psi);
-            for (unsigned int q = 0; q < points.n_points(); ++q)
-              {
-                // What has become part of the discrete crack in this step is
-                // unloaded by that, but must not heal in the next pass.
-                const MaterialPoint<dim> point(points.properties(q));
-                const bool               is_separated =
-                  data.partition &&
-                  labels.peak_damage[q] > data.partition_data.damage_threshold;
-                if (point.damageable() != 0.)
-                  state.history[q] =
-                    std::max(is_separated ? state.history[q] : point.history(),
-                             psi[q]);
-              }
-          }
+          update_history();
         if (converged)
           break;
       }
@@ -371,6 +223,78 @@ namespace EBSMPM
     if (u_space.n_twins() > 0)
       report.opening = opening();
     return report;
+  }
+
+
+
+  template <int dim>
+  bool
+  StaggeredStep<dim>::update_partition()
+  {
+    TimerOutput::Scope scope(*timer, "crack partition");
+    const bool         changed = partition.update(points,
+                                          boundary_points,
+                                          current_volume,
+                                          state.damage,
+                                          labels,
+                                          boundary_labels);
+    space_is_current           = space_is_current && !changed;
+    return changed;
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::begin_increment(const double guess_factor)
+  {
+    u_increment.reinit(0);
+    if (!space_is_current)
+      build_displacement_space();
+    else
+      u_system.initialize_vector(u_increment);
+    if (guess_factor != 0.)
+      {
+        last_increment.template transfer<dim>(u_space, u_increment);
+        u_increment *= guess_factor;
+      }
+
+    // The force of a broken specimen goes to zero, so compare residuals with
+    // the largest one so far; before there is any, with the first residual.
+    // That is large, as no Dirichlet data are met yet, but what is lost by
+    // roundoff is a part of it, and a piece that nothing holds never has a
+    // force.
+    if (first_residual == 0.)
+      {
+        LA::FieldVector residual = u_system.make_vector();
+        u_system.assemble_residual(state, boundary, u_increment, residual);
+        first_residual = residual.l2_norm();
+      }
+    force_scale = largest_force == 0. ?
+                    first_residual :
+                    std::max(largest_force, 1e-3 * first_residual);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredStep<dim>::update_history()
+  {
+    TimerOutput::Scope scope(*timer, "history");
+    u_system.driving_energy(update, psi);
+    for (unsigned int q = 0; q < points.n_points(); ++q)
+      {
+        // What has become part of the discrete crack in this step is unloaded
+        // by that, but must not heal in the next pass.
+        const MaterialPoint<dim> point(points.properties(q));
+        const bool               is_separated =
+          data.partition &&
+          labels.peak_damage[q] > data.partition_data.damage_threshold;
+        if (point.damageable() != 0.)
+          state.history[q] =
+            std::max(is_separated ? state.history[q] : point.history(), psi[q]);
+      }
   }
 
 
@@ -475,25 +399,7 @@ namespace EBSMPM
     for (const auto &reaction : all_reactions)
       largest_force = std::max(largest_force, reaction.second.norm());
 
-    for (unsigned int q = 0; q < points.n_points(); ++q)
-      {
-        MaterialPoint<dim> point(points.properties(q));
-        advance(points, q, update, state.F[q], labels, point);
-        point.damage()  = state.damage[q];
-        point.history() = state.history[q];
-      }
-    for (unsigned int q = 0; q < boundary_points.n_points(); ++q)
-      {
-        BoundaryPoint<dim> point(boundary_points.properties(q));
-        advance(boundary_points,
-                q,
-                boundary_update,
-                boundary.F[q],
-                boundary_labels,
-                point);
-        point.damage() = boundary.damage[q];
-      }
-
+    move_points();
     last_increment.reinit(u_space, u_increment);
     material_points.sort();
     boundary_material_points.sort();

@@ -30,7 +30,10 @@ namespace EBSMPM
     coarse_extents = triangulation.begin(0)->vertex(n_vertices - 1) -
                      triangulation.begin(0)->vertex(0);
     for (unsigned int d = 0; d < dim; ++d)
-      AssertThrow(coarse_extents[d] > 0., ExcNotCartesian());
+      {
+        AssertThrow(coarse_extents[d] > 0., ExcNotCartesian());
+        inverse_coarse_extents[d] = 1. / coarse_extents[d];
+      }
 
     coarse_indices.resize(triangulation.n_cells(0));
     for (const auto &cell : triangulation.cell_iterators_on_level(0))
@@ -85,6 +88,15 @@ namespace EBSMPM
   CartesianLattice<dim>::cell_extents(const unsigned int level) const
   {
     return coarse_extents / static_cast<double>(1U << level);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  CartesianLattice<dim>::inverse_cell_extents(const unsigned int level) const
+  {
+    return inverse_coarse_extents * static_cast<double>(1U << level);
   }
 
 

@@ -72,15 +72,16 @@ namespace EBSMPM
     complete_symmetric(const unsigned int n, const unsigned int ld, double *C);
 
     /**
-     * Compute $C^T = A B^T$, the products of few rows with many: the gradients
-     * of the components of a field at all points.
+     * Compute $C = A B^T$, the products of few rows with many: the gradients of
+     * the components of a field at all points.
      *
      * @param n_inner length of all rows, which are @p ld apart; up to the next
      *   multiple of #padding, they are zero
      * @param n_rows, @p A the few rows
      * @param n_columns, @p B the many rows
-     * @param C <tt>C[j*n_rows+i]</tt> is the product of row $i$ of @p A and row
-     *   $j$ of @p B
+     * @param C <tt>C[i*ldc+j]</tt> is the product of row $i$ of @p A and row $j$
+     *   of @p B
+     * @param ldc distance between rows of @p C
      */
     void
     row_products(const unsigned int n_inner,
@@ -89,7 +90,8 @@ namespace EBSMPM
                  const unsigned int n_columns,
                  const double      *B,
                  const unsigned int ld,
-                 double            *C);
+                 double            *C,
+                 const unsigned int ldc);
 
     /**
      * Combine rows that belong to the same point, for all pairs of components

@@ -98,10 +98,8 @@ namespace EBSMPM
                                           group,
                                           field,
                                           coefficients.data());
-        Tensor<1, dim> inverse_h =
-          lattice.cell_extents(points.cells()[group.cell].level);
-        for (unsigned int d = 0; d < dim; ++d)
-          inverse_h[d] = 1. / inverse_h[d];
+        const Tensor<1, dim> inverse_h =
+          lattice.inverse_cell_extents(points.cells()[group.cell].level);
 
         for (unsigned int k = group.begin; k < group.end; ++k)
           {

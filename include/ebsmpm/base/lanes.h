@@ -27,6 +27,16 @@
 #  define EBSMPM_TARGET_AVX512
 #endif
 
+// Some of the numbers of two vectors of n, which are counted through both.
+// GCC before version 12 knows its own builtin only, Clang does not have that.
+#ifdef __clang__
+#  define EBSMPM_SHUFFLE(n, a, b, ...) \
+    __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+#  define EBSMPM_SHUFFLE(n, a, b, ...) \
+    __builtin_shuffle(a, b, ::EBSMPM::LaneNumbers##n{__VA_ARGS__})
+#endif
+
 // What is called by the variants of a kernel must become part of each.
 #define EBSMPM_IN_EACH_TARGET inline __attribute__((always_inline))
 
@@ -77,6 +87,13 @@ namespace EBSMPM
       *reinterpret_cast<in_memory *>(memory) = value;
     }
 
+    /**
+     * Return a vector of the sums of #n vectors over their lanes, for at most
+     * four lanes.
+     */
+    static EBSMPM_IN_EACH_TARGET type
+    totals(const type *vectors);
+
   private:
     typedef double in_memory
       __attribute__((vector_size(n_bytes), aligned(8), may_alias));
@@ -84,8 +101,79 @@ namespace EBSMPM
 
 
 
-  /** The largest number of lanes. */
-  constexpr unsigned int max_n_lanes = 8;
+  typedef long long LaneNumbers2 __attribute__((vector_size(16)));
+  typedef long long LaneNumbers4 __attribute__((vector_size(32)));
+
+  template <>
+  EBSMPM_IN_EACH_TARGET auto
+  Lanes<16>::totals(const type *v) -> type
+  {
+    return EBSMPM_SHUFFLE(2, v[0], v[1], 0, 2) +
+           EBSMPM_SHUFFLE(2, v[0], v[1], 1, 3);
+  }
+
+  template <>
+  EBSMPM_IN_EACH_TARGET auto
+  Lanes<32>::totals(const type *v) -> type
+  {
+    const type a = EBSMPM_SHUFFLE(4, v[0], v[1], 0, 4, 2, 6) +
+                   EBSMPM_SHUFFLE(4, v[0], v[1], 1, 5, 3, 7);
+    const type b = EBSMPM_SHUFFLE(4, v[2], v[3], 0, 4, 2, 6) +
+                   EBSMPM_SHUFFLE(4, v[2], v[3], 1, 5, 3, 7);
+    return EBSMPM_SHUFFLE(4, a, b, 0, 1, 4, 5) +
+           EBSMPM_SHUFFLE(4, a, b, 2, 3, 6, 7);
+  }
+
+
+
+  /**
+   * For loops that are short, like those over the points of a cell or the
+   * functions that it sees: at most #max_n_short_lanes numbers, also where
+   * registers are longer.
+   */
+  template <unsigned int n_bytes>
+  using ShortLanes = Lanes<(n_bytes < 32 ? n_bytes : 32)>;
+
+  /** The largest number of lanes of ShortLanes. */
+  constexpr unsigned int max_n_short_lanes = 4;
+
+
+
+  /** The instructions that kernels are compiled for, from few to many. */
+  enum class InstructionSet
+  {
+    baseline,
+    avx2,
+    avx512
+  };
+
+
+
+  /** Return the best one for the machine the program runs on. */
+  inline InstructionSet
+  best_instruction_set()
+  {
+#ifdef EBSMPM_HAVE_X86_TARGETS
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
+      return InstructionSet::avx512;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+      return InstructionSet::avx2;
+#endif
+    return InstructionSet::baseline;
+  }
+
+
+
+  /**
+   * The one that run_best() uses: the best one, unless a lesser one is assigned
+   * to it, as a test does.
+   */
+  inline InstructionSet &
+  instruction_set()
+  {
+    static InstructionSet result = best_instruction_set();
+    return result;
+  }
 
 
 
@@ -120,24 +208,24 @@ namespace EBSMPM
 
 
   /**
-   * Run the variant of a kernel that is the best one for the machine the
-   * program runs on, and return what it returns. Arguments are passed by value.
+   * Run the variant of a kernel for instruction_set(), and return what it
+   * returns. Arguments are passed by value.
    */
   template <typename Kernel, typename... Arguments>
   inline auto
   run_best(Arguments... arguments)
   {
+    switch (instruction_set())
+      {
 #ifdef EBSMPM_HAVE_X86_TARGETS
-    static const bool has_avx512 =
-      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
-    static const bool has_avx2 =
-      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    if (has_avx512)
-      return run_avx512<Kernel>(arguments...);
-    if (has_avx2)
-      return run_avx2<Kernel>(arguments...);
+        case InstructionSet::avx512:
+          return run_avx512<Kernel>(arguments...);
+        case InstructionSet::avx2:
+          return run_avx2<Kernel>(arguments...);
 #endif
-    return run_baseline<Kernel>(arguments...);
+        default:
+          return run_baseline<Kernel>(arguments...);
+      }
   }
 } // namespace EBSMPM
 

@@ -46,7 +46,7 @@ namespace EBSMPM
    * @endcode
    *
    * Memory is allocated by initialize() only. The arrays are padded with points
-   * without volume, so that their length is a multiple of #max_n_lanes.
+   * without volume, so that their length is a multiple of #max_n_short_lanes.
    */
   template <int dim>
   class MaterialBatch
@@ -59,7 +59,7 @@ namespace EBSMPM
     void
     initialize(const unsigned int max_n_points)
     {
-      stride = (max_n_points + max_n_lanes - 1) / max_n_lanes * max_n_lanes;
+      stride = (max_n_points + max_n_short_lanes - 1) / max_n_short_lanes * max_n_short_lanes;
       data.assign(n_rows * stride, 0.);
       n_filled = 0;
       n        = 0;
@@ -70,7 +70,7 @@ namespace EBSMPM
     reinit(const unsigned int n_points)
     {
       n        = n_points;
-      n_filled = (n + max_n_lanes - 1) / max_n_lanes * max_n_lanes;
+      n_filled = (n + max_n_short_lanes - 1) / max_n_short_lanes * max_n_short_lanes;
       for (unsigned int p = n; p < n_filled; ++p)
         set(p,
             unit_symmetric_tensor<dim>(),

@@ -338,6 +338,33 @@ namespace EBSMPM
     void
     begin(const FieldSnapshot<dim> &old_damage);
 
+    /** Number the points, and read what does not change within a step. */
+    void
+    number_points();
+
+    /** Read damage, history and labels, which are iterated in a step. */
+    void
+    read_iterates();
+
+    /** Write the solution to the points, and move these. */
+    void
+    move_points();
+
+    /** Bring the crack partition up to date. Return whether it has changed. */
+    bool
+    update_partition();
+
+    /**
+     * Give the increment of displacement the space of today, its initial guess,
+     * see solve(), and a scale for its residuals.
+     */
+    void
+    begin_increment(const double guess_factor);
+
+    /** Update the history field after a solve for the displacement. */
+    void
+    update_history();
+
     /** Build the space of the displacement for the current partition. */
     void
     build_displacement_space();

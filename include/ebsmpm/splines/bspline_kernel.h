@@ -16,6 +16,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <array>
+#include <type_traits>
 
 namespace EBSMPM
 {
@@ -101,9 +102,18 @@ namespace EBSMPM
                          const unsigned int    stride) const;
 
   private:
-    /** The pieces on the unit interval and their derivatives. */
+    /**
+     * Call a function with the degree as a compile-time constant, a
+     * <tt>std::integral_constant</tt>.
+     */
+    template <typename Function>
     inline void
-    univariate(const double x, double *N, double *dN) const;
+    with_degree(const Function &function) const;
+
+    /** The pieces on the unit interval and their derivatives. */
+    template <unsigned int degree>
+    static inline void
+    univariate(const double x, double *N, double *dN);
 
     unsigned int p;
     unsigned int n;
@@ -114,40 +124,57 @@ namespace EBSMPM
 #ifndef DOXYGEN
 
   template <int dim>
+  template <typename Function>
   inline void
-  BSplineKernel<dim>::univariate(const double x, double *N, double *dN) const
+  BSplineKernel<dim>::with_degree(const Function &function) const
   {
-    const double y = 1. - x;
     switch (p)
       {
         case 1:
-          N[0]  = y;
-          N[1]  = x;
-          dN[0] = -1.;
-          dN[1] = 1.;
-          break;
+          return function(std::integral_constant<unsigned int, 1>());
         case 2:
-          N[0]  = 0.5 * y * y;
-          N[1]  = 0.5 + x * y;
-          N[2]  = 0.5 * x * x;
-          dN[0] = -y;
-          dN[1] = y - x;
-          dN[2] = x;
-          break;
+          return function(std::integral_constant<unsigned int, 2>());
         case 3:
-          N[0]  = y * y * y / 6.;
-          N[1]  = (4. + x * x * (3. * x - 6.)) / 6.;
-          N[2]  = (4. + y * y * (3. * y - 6.)) / 6.;
-          N[3]  = x * x * x / 6.;
-          dN[0] = -0.5 * y * y;
-          dN[1] = 0.5 * x * (3. * x - 4.);
-          dN[2] = -0.5 * y * (3. * y - 4.);
-          dN[3] = 0.5 * x * x;
-          break;
+          return function(std::integral_constant<unsigned int, 3>());
         default:
           Assert(false, ExcInternalError());
-          // The constructor has seen to it; let the compiler know as well.
-          __builtin_unreachable();
+      }
+  }
+
+
+
+  template <int dim>
+  template <unsigned int degree>
+  inline void
+  BSplineKernel<dim>::univariate(const double x, double *N, double *dN)
+  {
+    const double y = 1. - x;
+    if constexpr (degree == 1)
+      {
+        N[0]  = y;
+        N[1]  = x;
+        dN[0] = -1.;
+        dN[1] = 1.;
+      }
+    else if constexpr (degree == 2)
+      {
+        N[0]  = 0.5 * y * y;
+        N[1]  = 0.5 + x * y;
+        N[2]  = 0.5 * x * x;
+        dN[0] = -y;
+        dN[1] = y - x;
+        dN[2] = x;
+      }
+    else
+      {
+        N[0]  = y * y * y / 6.;
+        N[1]  = (4. + x * x * (3. * x - 6.)) / 6.;
+        N[2]  = (4. + y * y * (3. * y - 6.)) / 6.;
+        N[3]  = x * x * x / 6.;
+        dN[0] = -0.5 * y * y;
+        dN[1] = 0.5 * x * (3. * x - 4.);
+        dN[2] = -0.5 * y * (3. * y - 4.);
+        dN[3] = 0.5 * x * x;
       }
   }
 
@@ -157,22 +184,21 @@ namespace EBSMPM
   inline void
   BSplineKernel<dim>::values(const Point<dim> &xi, double *B) const
   {
-    double N[dim][max_degree + 1], dN[dim][max_degree + 1];
-    for (unsigned int d = 0; d < dim; ++d)
-      univariate(xi[d], N[d], dN[d]);
+    with_degree([&](const auto degree) {
+      constexpr unsigned int m = degree() + 1;
+      double                 N[dim][m], dN[dim][m];
+      for (unsigned int d = 0; d < dim; ++d)
+        univariate<degree()>(xi[d], N[d], dN[d]);
 
-    if (dim == 1)
-      for (unsigned int i = 0; i <= p; ++i)
-        B[i] = N[0][i];
-    else
-      for (unsigned int k = 0, c = 0; k <= (dim == 3 ? p : 0); ++k)
-        for (unsigned int j = 0; j <= p; ++j)
+      for (unsigned int k = 0, c = 0; k < (dim == 3 ? m : 1); ++k)
+        for (unsigned int j = 0; j < (dim > 1 ? m : 1); ++j)
           {
-            const double factor =
-              N[dim > 1 ? 1 : 0][j] * (dim == 3 ? N[dim - 1][k] : 1.);
-            for (unsigned int i = 0; i <= p; ++i, ++c)
+            const double factor = (dim > 1 ? N[dim > 1 ? 1 : 0][j] : 1.) *
+                                  (dim == 3 ? N[dim - 1][k] : 1.);
+            for (unsigned int i = 0; i < m; ++i, ++c)
               B[c] = N[0][i] * factor;
           }
+    });
   }
 
 
@@ -185,43 +211,46 @@ namespace EBSMPM
                                            double               *dB,
                                            const unsigned int    stride) const
   {
-    double N[3][max_degree + 1], dN[3][max_degree + 1];
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        univariate(xi[d], N[d], dN[d]);
-        for (unsigned int i = 0; i <= p; ++i)
-          dN[d][i] *= inverse_h[d];
-      }
-
-    if (dim == 1)
-      for (unsigned int i = 0; i <= p; ++i)
+    with_degree([&](const auto degree) {
+      constexpr unsigned int m = degree() + 1;
+      double                 N[3][m], dN[3][m];
+      for (unsigned int d = 0; d < dim; ++d)
         {
-          B[i]  = N[0][i];
-          dB[i] = dN[0][i];
+          univariate<degree()>(xi[d], N[d], dN[d]);
+          for (unsigned int i = 0; i < m; ++i)
+            dN[d][i] *= inverse_h[d];
         }
-    else if (dim == 2)
-      for (unsigned int j = 0, c = 0; j <= p; ++j)
-        for (unsigned int i = 0; i <= p; ++i, ++c)
+
+      if (dim == 1)
+        for (unsigned int i = 0; i < m; ++i)
           {
-            B[c]           = N[0][i] * N[1][j];
-            dB[c]          = dN[0][i] * N[1][j];
-            dB[stride + c] = N[0][i] * dN[1][j];
+            B[i]  = N[0][i];
+            dB[i] = dN[0][i];
           }
-    else
-      for (unsigned int k = 0, c = 0; k <= p; ++k)
-        for (unsigned int j = 0; j <= p; ++j)
-          {
-            const double NN  = N[1][j] * N[2][k];
-            const double dNN = dN[1][j] * N[2][k];
-            const double NdN = N[1][j] * dN[2][k];
-            for (unsigned int i = 0; i <= p; ++i, ++c)
-              {
-                B[c]               = N[0][i] * NN;
-                dB[c]              = dN[0][i] * NN;
-                dB[stride + c]     = N[0][i] * dNN;
-                dB[2 * stride + c] = N[0][i] * NdN;
-              }
-          }
+      else if (dim == 2)
+        for (unsigned int j = 0, c = 0; j < m; ++j)
+          for (unsigned int i = 0; i < m; ++i, ++c)
+            {
+              B[c]           = N[0][i] * N[1][j];
+              dB[c]          = dN[0][i] * N[1][j];
+              dB[stride + c] = N[0][i] * dN[1][j];
+            }
+      else
+        for (unsigned int k = 0, c = 0; k < m; ++k)
+          for (unsigned int j = 0; j < m; ++j)
+            {
+              const double NN  = N[1][j] * N[2][k];
+              const double dNN = dN[1][j] * N[2][k];
+              const double NdN = N[1][j] * dN[2][k];
+              for (unsigned int i = 0; i < m; ++i, ++c)
+                {
+                  B[c]               = N[0][i] * NN;
+                  dB[c]              = dN[0][i] * NN;
+                  dB[stride + c]     = N[0][i] * dNN;
+                  dB[2 * stride + c] = N[0][i] * NdN;
+                }
+            }
+    });
   }
 
 #endif

@@ -61,6 +61,13 @@ namespace EBSMPM
     cell_extents(const unsigned int level) const;
 
     /**
+     * Return one over these lengths, which turns derivatives with respect to
+     * unit coordinates into real ones.
+     */
+    Tensor<1, dim>
+    inverse_cell_extents(const unsigned int level) const;
+
+    /**
      * Return function @p i, in lexicographic order, of those of degree
      * @p degree that a cell sees (in part 0).
      */
@@ -98,6 +105,7 @@ namespace EBSMPM
   private:
     Point<dim>         lower_corner;
     Tensor<1, dim>     coarse_extents;
+    Tensor<1, dim>     inverse_coarse_extents;
     std::vector<Index> coarse_indices;
   };
 } // namespace EBSMPM
