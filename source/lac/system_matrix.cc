@@ -7,6 +7,7 @@
 //
 // -----------------------------------------------------------------------------
 
+#include <ebsmpm/base/constant.h>
 #include <ebsmpm/base/lanes.h>
 
 #include <ebsmpm/lac/system_matrix.h>
@@ -18,7 +19,6 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <type_traits>
 
 namespace EBSMPM
 {
@@ -420,29 +420,10 @@ namespace EBSMPM
 
 
 
-  template <typename Function>
-  inline void
-  SystemMatrix::with_components(const Function &function) const
-  {
-    switch (n_components)
-      {
-        case 1:
-          return function(std::integral_constant<unsigned int, 1>());
-        case 2:
-          return function(std::integral_constant<unsigned int, 2>());
-        case 3:
-          return function(std::integral_constant<unsigned int, 3>());
-        default:
-          Assert(false, ExcNotImplemented());
-      }
-  }
-
-
-
   void
   SystemMatrix::close_row(const unsigned int function)
   {
-    with_components([&](const auto nc) {
+    with_constant(n_components, [&](const auto nc) {
       split_row<nc()>(row_length(function), open_row(function), row(function));
     });
   }
@@ -468,7 +449,7 @@ namespace EBSMPM
           std::fill_n(row_pointers[i], block_size * row_length(f[i]), 0.);
       }
     if (values != nullptr)
-      with_components([&](const auto nc) {
+      with_constant(n_components, [&](const auto nc) {
         run_best<AddRuns<nc()>>(n,
                                 values,
                                 stride,

@@ -130,12 +130,14 @@ public:
         time_of_product = std::min(time_of_product,
                                    seconds([this]() { product.compute(); }, 1));
       }
-    const double flops_per_time =
-      MatrixProduct::n_flops / time_of_product * time;
+    const double flops_of_product =
+      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) * MatrixProduct::n_flops /
+      time_of_product * time;
     print(what,
           n_points,
           time,
-          {textbook_flops / flops_per_time, minimal_flops / flops_per_time});
+          {textbook_flops / flops_of_product,
+           minimal_flops / flops_of_product});
   }
 
   /** Print a line; fractions of the speed of dgemm that are zero are unknown.

@@ -36,7 +36,6 @@ SLIT = {
     "Notch/Type": "slit",
     "Notch/Plane point": "0.5, 0.5",
     "Notch/Plane normal": "0, 1",
-    "Notch/Region": "half_space(0.5,0.5, 1,0)",
 }
 # With the corner at a multiple of h, the crack runs along a row of control
 # points, since there are 125 rows; now it runs between two rows.
@@ -57,16 +56,17 @@ def single(du):
     }
 
 
+# Not where round-off decides, in the middle of a cell: between two of them.
+def slit_to(x):
+    return {"Notch/Region": f"half_space({x},0.5, 1,0)"}
+
+
 def coarse(n_cells, passes=1):
     return {
         "": "step-5/coarse.prm",
         "Background grid/Cell size": f"1/{n_cells}",
         "Staggered/Maximum passes": str(passes),
     }
-
-
-def slit_to(x):
-    return {"Notch/Region": f"half_space({x},0.5, 1,0)"}
 
 
 TO_THE_PEAK = {"Loading/Increments": "0.003: 2e-4, 0.0058: 2e-5"}
@@ -89,20 +89,19 @@ CASES = {
     ],
     "damage": [ITERATED, DAMAGE],
     "damage-diffusive": [ITERATED, DAMAGE, DIFFUSIVE],
-    "slit": [ITERATED, SLIT],
-    "slit-shifted": [ITERATED, SLIT, SHIFTED],
+    "slit": [ITERATED, SLIT, slit_to("0.5-h/2")],
+    "slit-shifted": [ITERATED, SLIT, slit_to("0.5"), SHIFTED],
     "coarse-single": [coarse(31)],
     "coarse-single-diffusive": [coarse(31), DIFFUSIVE],
     "coarse-iterated": [coarse(31, 500)],
     "coarse-iterated-diffusive": [coarse(31, 500), DIFFUSIVE],
-    # A slit ends half a cell beyond the centre of the last cell that is open.
-    # With l fixed, the grid is refined, with a tip at 0.5 + h/2 (odd numbers of
-    # cells), 0.5 - h/2 (the same, and the slit a little shorter) or 0.5 (even).
-    "coarse-shorter": [coarse(31), TO_THE_PEAK, slit_to("0.5-h/2")],
-    "coarse-62": [coarse(62), TO_THE_PEAK],
-    "coarse-93": [coarse(93), TO_THE_PEAK],
-    "coarse-93-shorter": [coarse(93), TO_THE_PEAK, slit_to("0.5-h/2")],
-    "coarse-124": [coarse(124), TO_THE_PEAK],
+    # A slit ends between two cells. With l fixed, the grid is refined, with a tip
+    # at 0.5 - h/2 or 0.5 + h/2 (odd numbers of cells), or at 0.5 (even).
+    "coarse-longer": [coarse(31), TO_THE_PEAK, slit_to("0.5+h/2")],
+    "coarse-62": [coarse(62), TO_THE_PEAK, slit_to("0.5")],
+    "coarse-93": [coarse(93), TO_THE_PEAK, slit_to("0.5-h/2")],
+    "coarse-93-longer": [coarse(93), TO_THE_PEAK, slit_to("0.5+h/2")],
+    "coarse-124": [coarse(124), TO_THE_PEAK, slit_to("0.5")],
 }
 
 

@@ -206,14 +206,6 @@ namespace EBSMPM
     double *
     open_row(const unsigned int function);
 
-    /**
-     * Call a function with the number of components as a compile-time constant,
-     * a <tt>std::integral_constant</tt>.
-     */
-    template <typename Function>
-    void
-    with_components(const Function &function) const;
-
     /** Write the row of a function to where it belongs. */
     void
     close_row(const unsigned int function);

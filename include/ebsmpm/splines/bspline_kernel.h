@@ -10,13 +10,12 @@
 #ifndef ebsmpm_splines_bspline_kernel_h
 #define ebsmpm_splines_bspline_kernel_h
 
-#include <ebsmpm/base/config.h>
+#include <ebsmpm/base/constant.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/utilities.h>
 
 #include <array>
-#include <type_traits>
 
 namespace EBSMPM
 {
@@ -102,14 +101,6 @@ namespace EBSMPM
                          const unsigned int    stride) const;
 
   private:
-    /**
-     * Call a function with the degree as a compile-time constant, a
-     * <tt>std::integral_constant</tt>.
-     */
-    template <typename Function>
-    inline void
-    with_degree(const Function &function) const;
-
     /** The pieces on the unit interval and their derivatives. */
     template <unsigned int degree>
     static inline void
@@ -122,26 +113,6 @@ namespace EBSMPM
 
 
 #ifndef DOXYGEN
-
-  template <int dim>
-  template <typename Function>
-  inline void
-  BSplineKernel<dim>::with_degree(const Function &function) const
-  {
-    switch (p)
-      {
-        case 1:
-          return function(std::integral_constant<unsigned int, 1>());
-        case 2:
-          return function(std::integral_constant<unsigned int, 2>());
-        case 3:
-          return function(std::integral_constant<unsigned int, 3>());
-        default:
-          Assert(false, ExcInternalError());
-      }
-  }
-
-
 
   template <int dim>
   template <unsigned int degree>
@@ -184,7 +155,7 @@ namespace EBSMPM
   inline void
   BSplineKernel<dim>::values(const Point<dim> &xi, double *B) const
   {
-    with_degree([&](const auto degree) {
+    with_constant(p, [&](const auto degree) {
       constexpr unsigned int m = degree() + 1;
       double                 N[dim][m], dN[dim][m];
       for (unsigned int d = 0; d < dim; ++d)
@@ -211,7 +182,7 @@ namespace EBSMPM
                                            double               *dB,
                                            const unsigned int    stride) const
   {
-    with_degree([&](const auto degree) {
+    with_constant(p, [&](const auto degree) {
       constexpr unsigned int m = degree() + 1;
       double                 N[3][m], dN[3][m];
       for (unsigned int d = 0; d < dim; ++d)
