@@ -59,7 +59,8 @@ namespace EBSMPM
     void
     initialize(const unsigned int max_n_points)
     {
-      stride = (max_n_points + max_n_short_lanes - 1) / max_n_short_lanes * max_n_short_lanes;
+      stride = (max_n_points + max_n_short_lanes - 1) / max_n_short_lanes *
+               max_n_short_lanes;
       data.assign(n_rows * stride, 0.);
       n_filled = 0;
       n        = 0;
@@ -69,8 +70,9 @@ namespace EBSMPM
     void
     reinit(const unsigned int n_points)
     {
-      n        = n_points;
-      n_filled = (n + max_n_short_lanes - 1) / max_n_short_lanes * max_n_short_lanes;
+      n = n_points;
+      n_filled =
+        (n + max_n_short_lanes - 1) / max_n_short_lanes * max_n_short_lanes;
       for (unsigned int p = n; p < n_filled; ++p)
         set(p,
             unit_symmetric_tensor<dim>(),
