@@ -14,7 +14,6 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
-#include <type_traits>
 
 namespace EBSMPM
 {
@@ -33,17 +32,15 @@ namespace EBSMPM
        * Heights of tiles are multiples of step: nine and 27 functions make
        * tiles of three rows, 16 and 64 of four.
        */
-      template <unsigned int n_bytes, unsigned int step>
+      template <unsigned int n_bytes>
       struct TransposedProductTiles
       {
         using L = Lanes<n_bytes>;
 
-        /** Number of registers for the sums, how many are side by side, and the
-         * height beyond which tiles do not become faster. */
+        /** Number of registers for the sums, and the height beyond which tiles
+         * do not become faster. */
         static constexpr unsigned int n_registers = (n_bytes == 64 ? 27 : 12);
-        static constexpr unsigned int max_n_vectors =
-          n_bytes == 64 ? 3 : (step == 4 ? 2 : 4);
-        static constexpr unsigned int max_height = 9;
+        static constexpr unsigned int max_height  = 9;
 
         const unsigned int n_inner;
         const unsigned int n_rows;
@@ -55,23 +52,32 @@ namespace EBSMPM
         const bool         add;
         const unsigned int block_size;
 
-        /** Panels of so many vectors from column j on, then narrower ones. */
-        template <unsigned int n_vectors = max_n_vectors>
+        /** All panels, as wide as the registers allow with this step. */
+        template <unsigned int step>
         EBSMPM_IN_EACH_TARGET void
-        panels(unsigned int j = 0) const
+        all_panels() const
+        {
+          panels<step, n_bytes == 64 ? 3 : (step == 4 ? 2 : 4)>(0);
+        }
+
+        /** Panels of so many vectors from column j on, then narrower ones. */
+        template <unsigned int step, unsigned int n_vectors>
+        EBSMPM_IN_EACH_TARGET void
+        panels(unsigned int j) const
         {
           constexpr unsigned int width = n_vectors * L::n;
           constexpr unsigned int n_steps =
             std::min(max_height / step, n_registers / (n_vectors * step));
           for (; j + width <= n_columns; j += width)
-            tiles<n_vectors, n_steps>(n_rows_until(j + width), j);
+            tiles<step, n_vectors, n_steps>(n_rows_until(j + width, step), j);
           if constexpr (n_vectors > 1)
-            panels<n_vectors - 1>(j);
+            panels<step, n_vectors - 1>(j);
         }
 
         /** The number of rows that are wanted in the columns before this. */
         EBSMPM_IN_EACH_TARGET unsigned int
-        n_rows_until(const unsigned int end_column) const
+        n_rows_until(const unsigned int end_column,
+                     const unsigned int step) const
         {
           if (block_size == 0)
             return n_rows;
@@ -82,7 +88,9 @@ namespace EBSMPM
         }
 
         /** Tiles of so many steps, as long as they fit, then lower ones. */
-        template <unsigned int n_vectors, unsigned int n_steps>
+        template <unsigned int step,
+                  unsigned int n_vectors,
+                  unsigned int n_steps>
         EBSMPM_IN_EACH_TARGET void
         tiles(const unsigned int end_row,
               const unsigned int j,
@@ -92,7 +100,7 @@ namespace EBSMPM
           for (; i + height <= end_row; i += height)
             tile<height, n_vectors>(A + i, B + j, C + i * n_columns + j);
           if constexpr (n_steps > 1)
-            tiles<n_vectors, n_steps - 1>(end_row, j, i);
+            tiles<step, n_vectors, n_steps - 1>(end_row, j, i);
         }
 
         template <unsigned int height, unsigned int n_vectors>
@@ -133,18 +141,14 @@ namespace EBSMPM
             const bool         add,
             const unsigned int block_size)
         {
+          const TransposedProductTiles<n_bytes> product = {
+            n_inner, n_rows, n_columns, A, lda, B, C, add, block_size};
           if (n_rows % 3 == 0)
-            TransposedProductTiles<n_bytes, 3>{
-              n_inner, n_rows, n_columns, A, lda, B, C, add, block_size}
-              .panels();
+            product.template all_panels<3>();
           else if (n_rows % 4 == 0)
-            TransposedProductTiles<n_bytes, 4>{
-              n_inner, n_rows, n_columns, A, lda, B, C, add, block_size}
-              .panels();
+            product.template all_panels<4>();
           else
-            TransposedProductTiles<n_bytes, 1>{
-              n_inner, n_rows, n_columns, A, lda, B, C, add, block_size}
-              .panels();
+            product.template all_panels<1>();
         }
       };
 
