@@ -101,6 +101,7 @@ namespace EBSMPM
 
 
 
+  /** How EBSMPM_SHUFFLE tells GCC which numbers. */
   typedef long long LaneNumbers2 __attribute__((vector_size(16)));
   typedef long long LaneNumbers4 __attribute__((vector_size(32)));
 

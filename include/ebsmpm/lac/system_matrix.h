@@ -65,7 +65,7 @@ namespace EBSMPM
      * the object returned by matrix(). Collective.
      *
      * @param functions distribution of the functions
-     * @param n_components unknowns per function
+     * @param n_components unknowns per function, from one to three
      * @param lists of functions, by their number in @p functions
      */
     bool
