@@ -154,7 +154,6 @@ namespace EBSMPM
                                          product.data(),
                                          false,
                                          1);
-        DenseKernels::complete_symmetric<1>(n, stride, product.data());
         distribute(material_groups,
                    group,
                    list++,
@@ -178,7 +177,7 @@ namespace EBSMPM
               for (unsigned int i = 0; i < n; ++i)
                 {
                   local_vector[i] += weight * B[i];
-                  for (unsigned int j = 0; j < n; ++j)
+                  for (unsigned int j = i; j < n; ++j)
                     product[i * stride + j] += weight * B[i] * B[j];
                 }
             }
@@ -202,7 +201,7 @@ namespace EBSMPM
   DamageSystem<dim>::distribute(const PointGroups<dim>                 &groups,
                                 const typename PointGroups<dim>::Group &group,
                                 const unsigned int                      list,
-                                const double                           *matrix,
+                                double                                 *matrix,
                                 const unsigned int                      stride,
                                 const double                           *vector,
                                 LA::FieldVector &right_hand_side)
@@ -220,6 +219,7 @@ namespace EBSMPM
               sum += E[I * m + i] * vector[I];
             right_hand_side.local_element(f[i]) += sum;
           }
+        DenseKernels::complete_symmetric<1>(n, stride, matrix);
         system_matrix.add(list,
                           extension_product.compute(E, m, matrix, stride),
                           m);

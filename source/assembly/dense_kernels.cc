@@ -298,32 +298,8 @@ namespace EBSMPM
         {
           for (unsigned int I = 1; I < n; ++I)
             for (unsigned int J = 0; J < I; ++J)
-              transpose_block<n_bytes>(C + J * ld + I * dim * dim,
-                                       C + I * ld + J * dim * dim);
-        }
-
-        template <unsigned int n_bytes>
-        static EBSMPM_IN_EACH_TARGET void
-        transpose_block(const double *from, double *to)
-        {
-          if constexpr (n_bytes >= 32 && dim > 1)
-            {
-              using L             = Lanes<32>;
-              const L::type lower = L::load(from);
-              if constexpr (dim == 2)
-                L::store(EBSMPM_SHUFFLE(4, lower, lower, 0, 2, 1, 3), to);
-              else
-                {
-                  const L::type upper = L::load(from + 4);
-                  L::store(EBSMPM_SHUFFLE(4, lower, upper, 0, 3, 6, 1), to);
-                  L::store(EBSMPM_SHUFFLE(4, lower, upper, 4, 7, 2, 5), to + 4);
-                  to[8] = from[8];
-                }
-            }
-          else
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int k = 0; k < dim; ++k)
-                to[i * dim + k] = from[k * dim + i];
+              transpose_block<dim, n_bytes>(C + J * ld + I * dim * dim,
+                                            C + I * ld + J * dim * dim);
         }
       };
     } // namespace

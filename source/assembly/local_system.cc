@@ -100,9 +100,9 @@ namespace EBSMPM
   LocalSystem<dim>::distribute_tangent(const unsigned int list,
                                        SystemMatrix      &matrix)
   {
-    DenseKernels::complete_symmetric<dim>(n, stride, tangent_rows.data());
     if (const double *E = groups->extension(*group))
       {
+        DenseKernels::complete_symmetric<dim>(n, stride, tangent_rows.data());
         const unsigned int m = group->n_functions;
         matrix.add(list,
                    extension_product.compute(E, m, tangent_rows.data(), stride),

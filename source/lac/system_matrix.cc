@@ -148,6 +148,39 @@ namespace EBSMPM
 
 
   void
+  SystemMatrix::find_mirrors(const std::vector<unsigned int> &coupled,
+                             const std::vector<std::size_t>  &begins)
+  {
+    // Rows and what they couple with are in ascending order: the mirrors of a
+    // row are reached one after the other, each when it is its function's turn.
+    std::vector<std::size_t> next_mirrors;
+    mirrors.clear();
+    mirror_begins.assign(1, 0);
+    first_places.assign(global_functions.size(), 0);
+    for (unsigned int f = 0; f < global_functions.size(); ++f)
+      {
+        next_mirrors.push_back(mirrors.size());
+        std::size_t k = row_begins[f];
+        for (std::size_t c = begins[f]; c < begins[f + 1]; ++c)
+          {
+            const unsigned int g = coupled[c];
+            while (row_columns[k] != columns[g])
+              ++k;
+            const std::uint16_t place = k - row_begins[f];
+            if (g < f)
+              mirrors[next_mirrors[g]++].to = place;
+            else if (g > f)
+              mirrors.push_back({g, place, 0});
+            else if (place == c - begins[f])
+              first_places[f] = place;
+          }
+        mirror_begins.push_back(mirrors.size());
+      }
+  }
+
+
+
+  void
   SystemMatrix::build_matrix(const Utilities::MPI::Partitioner &functions)
   {
     using Number          = TrilinosWrappers::types::int_type;
@@ -212,7 +245,8 @@ namespace EBSMPM
   void
   SystemMatrix::find_runs(const Occurrences &occurrences)
   {
-    // The columns of a list, row by row, as places in this row.
+    // For each pair of functions of a list, the place of the one with the
+    // higher number in the row of the other one.
     const unsigned int n_lists = list_begins.size() - 1;
     const auto         size_of = [&](const unsigned int l) {
       return list_begins[l + 1] - list_begins[l];
@@ -229,9 +263,11 @@ namespace EBSMPM
         for (std::size_t k = row_begins[f]; k < row_begins[f + 1]; ++k)
           place_of[row_columns[k]] = k - row_begins[f];
         occurrences.visit(f, [&](const unsigned int l, const unsigned int i) {
+          const unsigned int *g = list_functions.data() + list_begins[l];
           for (unsigned int j = 0; j < size_of(l); ++j)
-            places[begins[l] + i * size_of(l) + j] =
-              place_of[columns[list_functions[list_begins[l] + j]]];
+            if (g[j] >= f)
+              places[begins[l] + std::min(i, j) * size_of(l) + std::max(i, j)] =
+                place_of[columns[g[j]]];
         });
       }
 
@@ -240,13 +276,20 @@ namespace EBSMPM
     run_begins.assign(1, 0);
     for (unsigned int l = 0; l < n_lists; ++l)
       {
-        const std::uint16_t *place = places.data() + begins[l];
+        const unsigned int *g = list_functions.data() + list_begins[l];
         for (unsigned int i = 0; i < size_of(l); ++i)
-          for (unsigned int j = 0; j < size_of(l); ++j, ++place)
-            if (j > 0 && place[0] == place[-1] + 1)
-              ++runs.back().size;
-            else
-              runs.push_back({place[0], 1});
+          {
+            const std::uint16_t *place =
+              places.data() + begins[l] + i * size_of(l);
+            for (unsigned int j = i; j < size_of(l); ++j)
+              if (g[j] < g[i])
+                runs.push_back({place[j], 1, true});
+              else if (j > i && g[j - 1] >= g[i] &&
+                       place[j] == place[j - 1] + 1)
+                ++runs.back().size;
+              else
+                runs.push_back({place[j], 1, false});
+          }
         run_begins.push_back(runs.size());
       }
   }
@@ -274,6 +317,8 @@ namespace EBSMPM
       }
 
     // The slot that was left last is taken first: it is in the caches.
+    std::vector<unsigned int> closing_numbers(n_known, 0);
+    unsigned int              n_closed = 0;
     std::vector<unsigned int> free_slots;
     unsigned int              n_slots = 0, max_size = 0;
     for (unsigned int l = 0; l + 1 < list_begins.size(); ++l)
@@ -290,13 +335,27 @@ namespace EBSMPM
           }
         for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
           if (last_lists[list_functions[k]] == l)
-            free_slots.push_back(slots[list_functions[k]]);
+            {
+              free_slots.push_back(slots[list_functions[k]]);
+              closing_numbers[list_functions[k]] = n_closed++;
+            }
         max_size =
           std::max<unsigned int>(max_size, list_begins[l + 1] - list_begins[l]);
       }
     slot_size = n_components * n_components * width;
     open_rows.resize(n_slots * slot_size);
     row_pointers.resize(max_size);
+
+    late_mirror_begins.clear();
+    for (unsigned int f = 0; f < n_known; ++f)
+      late_mirror_begins.push_back(
+        std::partition(mirrors.begin() + mirror_begins[f],
+                       mirrors.begin() + mirror_begins[f + 1],
+                       [&](const Mirror &mirror) {
+                         return closing_numbers[mirror.function] >
+                                closing_numbers[f];
+                       }) -
+        mirrors.begin());
   }
 
 
@@ -306,6 +365,14 @@ namespace EBSMPM
   {
     wanted    = wanted_functions;
     next_list = 0;
+    if (wanted != nullptr)
+      {
+        needed = *wanted;
+        for (unsigned int f = 0; f < global_functions.size(); ++f)
+          for (std::size_t k = mirror_begins[f]; k < mirror_begins[f + 1]; ++k)
+            if ((*wanted)[mirrors[k].function])
+              needed[f] = true;
+      }
     for (unsigned int f = 0; f < n_owned; ++f)
       if (last_lists[f] < first_lists[f])
         std::fill_n(row(f), n_components * n_components * row_length(f), 0.);
@@ -373,8 +440,8 @@ namespace EBSMPM
 
 
     /**
-     * Add a local matrix of n x n blocks to rows, along runs of columns that
-     * are neighbours.
+     * Add one half of a symmetric local matrix of n x n blocks to rows, along
+     * runs of columns that are neighbours.
      */
     template <unsigned int n_components>
     struct AddRuns
@@ -393,15 +460,44 @@ namespace EBSMPM
           double *const     *rows)
       {
         for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; j += run->size, ++run)
+          for (unsigned int j = i; j < n; j += run->size, ++run)
             {
               const double *from = values + i * stride + j * block_size;
-              double       *to   = rows[i] + run->column * block_size;
+              double       *to =
+                rows[run->is_transposed ? j : i] + run->place * block_size;
               if (run->size == frequent_size)
                 add_array<n_bytes>(frequent_size * block_size, from, to);
-              else
+              else if (!run->is_transposed)
                 add_array<n_bytes>(run->size * block_size, from, to);
+              else
+                for (unsigned int a = 0; a < n_components; ++a)
+                  for (unsigned int b = 0; b < n_components; ++b)
+                    to[a * n_components + b] += from[b * n_components + a];
             }
+      }
+    };
+
+
+
+    /** Copy blocks of an open row, transposed, to others. */
+    template <unsigned int n_components>
+    struct CopyMirrors
+    {
+      template <unsigned int n_bytes, typename Mirror>
+      static EBSMPM_IN_EACH_TARGET void
+      run(const unsigned int  n,
+          const Mirror       *mirror,
+          const double       *blocks,
+          double             *open_rows,
+          const std::size_t   slot_size,
+          const unsigned int *slots)
+      {
+        constexpr unsigned int block_size = n_components * n_components;
+        for (unsigned int k = 0; k < n; ++k, ++mirror)
+          transpose_block<n_components, n_bytes>(
+            blocks + mirror->from * block_size,
+            open_rows + slots[mirror->function] * slot_size +
+              mirror->to * block_size);
       }
     };
 
@@ -409,22 +505,72 @@ namespace EBSMPM
 
     /** Copy a row of blocks to as many rows of numbers as blocks have. */
     template <unsigned int n_components>
-    void
-    split_row(const unsigned int n_blocks, const double *from, double *to)
+    struct SplitRow
     {
-      for (unsigned int a = 0; a < n_components; ++a, from += n_components)
-        for (unsigned int k = 0; k < n_blocks; ++k, to += n_components)
-          std::copy_n(from + k * n_components * n_components, n_components, to);
-    }
+      template <unsigned int n_bytes>
+      static EBSMPM_IN_EACH_TARGET void
+      run(const unsigned int n_blocks, const double *from, double *to)
+      {
+        // Three numbers are copied with another one, which is overwritten by
+        // what comes next.
+        const unsigned int length = n_blocks * n_components;
+        unsigned int       k      = 0;
+        if constexpr (n_components == 3 && n_bytes >= 32)
+          for (; k + 1 < n_blocks; ++k, to += n_components)
+            for (unsigned int a = 0; a < n_components;
+                 ++a, from += n_components)
+              Lanes<32>::store(Lanes<32>::load(from), to + a * length);
+        for (; k < n_blocks; ++k, to += n_components)
+          for (unsigned int a = 0; a < n_components; ++a, from += n_components)
+            for (unsigned int b = 0; b < n_components; ++b)
+              to[a * length + b] = from[b];
+      }
+    };
   } // namespace
+
+
+
+  void
+  SystemMatrix::begin_row(const unsigned int function)
+  {
+    const unsigned int block_size = n_components * n_components;
+    if (wanted == nullptr || needed[function])
+      std::fill(open_row(function) + block_size * first_places[function],
+                open_row(function) + block_size * row_length(function),
+                0.);
+  }
 
 
 
   void
   SystemMatrix::close_row(const unsigned int function)
   {
+    if (wanted != nullptr && !needed[function])
+      return;
+
+    const double *const blocks = open_row(function);
+    const std::size_t   begin  = mirror_begins[function];
+    const std::size_t   late   = late_mirror_begins[function];
+    const std::size_t   end    = mirror_begins[function + 1];
     with_constant(n_components, [&](const auto nc) {
-      split_row<nc()>(row_length(function), open_row(function), row(function));
+      run_best<CopyMirrors<nc()>>(late - begin,
+                                  mirrors.data() + begin,
+                                  blocks,
+                                  open_rows.data(),
+                                  slot_size,
+                                  slots.data());
+      for (std::size_t k = late; k < end; ++k)
+        {
+          const Mirror &mirror = mirrors[k];
+          const double *from   = blocks + mirror.from * nc() * nc();
+          double       *to     = row(mirror.function) + mirror.to * nc();
+          for (unsigned int a = 0; a < nc(); ++a)
+            for (unsigned int b = 0; b < nc(); ++b)
+              to[a * nc() * row_length(mirror.function) + b] =
+                from[b * nc() + a];
+        }
+      if (wanted == nullptr || (*wanted)[function])
+        run_best<SplitRow<nc()>>(row_length(function), blocks, row(function));
     });
   }
 
@@ -435,18 +581,14 @@ namespace EBSMPM
                          const double      *values,
                          const unsigned int stride)
   {
-    const unsigned int  n          = list_begins[list + 1] - list_begins[list];
-    const unsigned int *f          = list_functions.data() + list_begins[list];
-    const unsigned int  block_size = n_components * n_components;
-    const auto          is_wanted  = [this](const unsigned int function) {
-      return wanted == nullptr || (*wanted)[function];
-    };
+    const unsigned int  n = list_begins[list + 1] - list_begins[list];
+    const unsigned int *f = list_functions.data() + list_begins[list];
 
     for (unsigned int i = 0; i < n; ++i)
       {
         row_pointers[i] = open_row(f[i]);
-        if (first_lists[f[i]] == list && is_wanted(f[i]))
-          std::fill_n(row_pointers[i], block_size * row_length(f[i]), 0.);
+        if (first_lists[f[i]] == list)
+          begin_row(f[i]);
       }
     if (values != nullptr)
       with_constant(n_components, [&](const auto nc) {
@@ -457,7 +599,7 @@ namespace EBSMPM
                                 row_pointers.data());
       });
     for (unsigned int i = 0; i < n; ++i)
-      if (last_lists[f[i]] == list && is_wanted(f[i]))
+      if (last_lists[f[i]] == list)
         close_row(f[i]);
   }
 
@@ -477,12 +619,14 @@ namespace EBSMPM
     return list_functions.capacity() * sizeof(unsigned int) +
            global_functions.capacity() * sizeof(types::global_dof_index) +
            foreign_columns.memory_consumption() +
-           runs.capacity() * sizeof(Run) +
+           runs.capacity() * sizeof(Run) + mirrors.capacity() * sizeof(Mirror) +
+           first_places.capacity() * sizeof(std::uint16_t) +
            (columns.capacity() + row_columns.capacity() + slots.capacity() +
             first_lists.capacity() + last_lists.capacity()) *
              sizeof(unsigned int) +
            (list_begins.capacity() + run_begins.capacity() +
-            row_begins.capacity() + arrival_places.capacity()) *
+            row_begins.capacity() + mirror_begins.capacity() +
+            late_mirror_begins.capacity() + arrival_places.capacity()) *
              sizeof(std::size_t) +
            row_pointers.capacity() * sizeof(double *) +
            (open_rows.capacity() + ghost_entries.capacity() +

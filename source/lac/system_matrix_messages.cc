@@ -162,6 +162,7 @@ namespace EBSMPM
           }
         row_begins.push_back(row_columns.size());
       }
+    find_mirrors(row_functions, row_functions_begins);
   }
 
 

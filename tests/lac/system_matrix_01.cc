@@ -10,7 +10,8 @@
 
 // SystemMatrix: local matrices of windows on a lattice of functions, dealt to
 // the processes such that some work for others only, arrive where they belong,
-// with all instruction sets of the machine.
+// with all instruction sets of the machine. Of the local matrices, one half is
+// given, and the functions of every other window go backwards.
 
 #include <ebsmpm/lac/system_matrix.h>
 
@@ -18,6 +19,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -38,16 +40,19 @@ window(const unsigned int column, const unsigned int row)
   for (unsigned int i = 0; i < width; ++i)
     for (unsigned int j = 0; j < width; ++j)
       functions.push_back((column + i) * n_y + row + j);
+  if ((column + row) % 2 == 1)
+    std::reverse(functions.begin(), functions.end());
   return functions;
 }
 
-/** An entry of a local matrix, the same for all distributions. */
+/** An entry of a symmetric local matrix, the same for all distributions. */
 double
 entry(const unsigned int            factor,
       const types::global_dof_index unknown_i,
       const types::global_dof_index unknown_j)
 {
-  return factor * std::sin(1. + unknown_i + 0.37 * unknown_j);
+  return factor * (std::sin(1. + unknown_i) * std::sin(1. + unknown_j) +
+                   std::cos(1. * unknown_i - 1. * unknown_j));
 }
 
 
@@ -115,11 +120,14 @@ public:
     std::vector<double> local(width * width * stride);
     system.begin(wanted);
     for (unsigned int l = 0; l < windows.size(); ++l)
-      if (windows[l][0] % n_y % every == 0)
+      if (*std::min_element(windows[l].begin(), windows[l].end()) % n_y %
+            every ==
+          0)
         {
           const auto &f = windows[l];
+          std::fill(local.begin(), local.end(), 1e10);
           for (unsigned int i = 0; i < f.size(); ++i)
-            for (unsigned int j = 0; j < f.size(); ++j)
+            for (unsigned int j = i; j < f.size(); ++j)
               for (unsigned int a = 0; a < nc; ++a)
                 for (unsigned int b = 0; b < nc; ++b)
                   local[i * stride + (j * nc + a) * nc + b] =

@@ -138,12 +138,15 @@ namespace EBSMPM
     space() const;
 
   private:
-    /** Resolve constraints and add a local matrix and vector. */
+    /**
+     * Resolve constraints and add a local vector, and a local matrix of which
+     * the upper half is there.
+     */
     void
     distribute(const PointGroups<dim>                 &groups,
                const typename PointGroups<dim>::Group &group,
                const unsigned int                      list,
-               const double                           *matrix,
+               double                                 *matrix,
                const unsigned int                      stride,
                const double                           *vector,
                LA::FieldVector                        &right_hand_side);

@@ -22,7 +22,8 @@
 namespace EBSMPM
 {
   /**
-   * A sparse matrix that knows where the entries of each dense local matrix go.
+   * A symmetric sparse matrix that knows where the entries of each dense local
+   * matrix go.
    *
    * The same local matrices, coupling the same unknowns, are added in every
    * Newton step. A general sparse matrix searches for each entry of theirs
@@ -32,10 +33,12 @@ namespace EBSMPM
    *
    * Rows that local matrices are being added to are kept aside, as open rows,
    * with all components of a function next to each other, so that a local
-   * matrix is added along lines of functions. A row is written to the sparse
-   * matrix once, after the last local matrix that has a share in it. As
-   * neighbouring cells follow each other, few rows are open at a time, and they
-   * stay in the caches.
+   * matrix is added along lines of functions. Of each pair of functions, only
+   * the row of the one with the lower number is added to. A row is closed after
+   * the last local matrix that has a share in it: what is behind its diagonal
+   * goes to the rows that mirror it, and all of it is written to the sparse
+   * matrix. As neighbouring cells follow each other, few rows are open at a
+   * time, and they stay in the caches.
    *
    * Rows of other processes are kept here, in the same way, until compress()
    * sends them, in messages whose contents have been agreed on by reinit().
@@ -90,7 +93,7 @@ namespace EBSMPM
      * @param list number of the list of functions that it couples
      * @param values <tt>values[i*stride + (j*n_components+a)*n_components +
      *   b]</tt> couples component $a$ of function $i$ of the list with
-     * component $b$ of its function $j$
+     *   component $b$ of its function $j$, for $i\le j$; the rest is not read
      * @param stride distance between two rows
      */
     void
@@ -121,11 +124,26 @@ namespace EBSMPM
     /** The rows that other processes have sent. */
     class ArrivingRows;
 
-    /** Functions one after the other that are neighbours in a row. */
+    /**
+     * Functions of a list, one after the other, that are neighbours in a row;
+     * or a single one whose block belongs, transposed, to its own row.
+     */
     struct Run
     {
-      std::uint16_t column;
-      std::uint16_t size;
+      std::uint16_t place;
+      std::uint16_t size : 15;
+      std::uint16_t is_transposed : 1;
+    };
+
+    /**
+     * A block of a row behind its diagonal, and its place in the row of the
+     * function there.
+     */
+    struct Mirror
+    {
+      unsigned int  function;
+      std::uint16_t from;
+      std::uint16_t to;
     };
 
     /** A part of an array that goes to another process, or comes from it. */
@@ -174,6 +192,16 @@ namespace EBSMPM
     add_rows(const Utilities::MPI::Partitioner &functions,
              const ArrivingRows                &arriving_rows);
 
+    /**
+     * Find the mirrors of all rows.
+     *
+     * @param coupled, @p begins the functions that each function couples with
+     *   according to the lists of this process
+     */
+    void
+    find_mirrors(const std::vector<unsigned int> &coupled,
+                 const std::vector<std::size_t>  &begins);
+
     /** Find out where the entries that other processes send belong. */
     void
     find_arrival_places(const Utilities::MPI::Partitioner &functions,
@@ -206,7 +234,11 @@ namespace EBSMPM
     double *
     open_row(const unsigned int function);
 
-    /** Write the row of a function to where it belongs. */
+    /** Add the row of a function to the open ones. */
+    void
+    begin_row(const unsigned int function);
+
+    /** Write the row of a function to where it belongs, and to its mirrors. */
     void
     close_row(const unsigned int function);
 
@@ -254,6 +286,17 @@ namespace EBSMPM
     std::vector<std::size_t> run_begins;
 
     /**
+     * The mirrors of the row of each function: those whose rows are still open
+     * when it is closed, and then the late ones.
+     */
+    std::vector<Mirror>      mirrors;
+    std::vector<std::size_t> mirror_begins;
+    std::vector<std::size_t> late_mirror_begins;
+
+    /** The place in each row from which on it is not all from mirrors. */
+    std::vector<std::uint16_t> first_places;
+
+    /**
      * For each function, its place among the open rows, and the first and the
      * last list that needs it. Own functions that no list needs have a last
      * list before the first one.
@@ -267,8 +310,9 @@ namespace EBSMPM
     std::size_t         slot_size = 0;
     unsigned int        next_list = 0;
 
-    /** See begin(). */
+    /** See begin(), and the rows that these need. */
     const std::vector<bool> *wanted = nullptr;
+    std::vector<bool>        needed;
 
     /** Scratch for add(): the open rows of a list. */
     std::vector<double *> row_pointers;
