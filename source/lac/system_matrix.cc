@@ -78,10 +78,11 @@ namespace EBSMPM
                                   list_functions,
                                   list_begins);
     find_rows(occurrences);
+    number_closings(occurrences);
     exchange_rows(functions);
     build_matrix(functions);
     find_runs(occurrences);
-    assign_slots(occurrences);
+    assign_slots();
     return true;
   }
 
@@ -151,30 +152,39 @@ namespace EBSMPM
   SystemMatrix::find_mirrors(const std::vector<unsigned int> &coupled,
                              const std::vector<std::size_t>  &begins)
   {
-    // Rows and what they couple with are in ascending order: the mirrors of a
-    // row are reached one after the other, each when it is its function's turn.
-    std::vector<std::size_t> next_mirrors;
-    mirrors.clear();
-    mirror_begins.assign(1, 0);
-    first_places.assign(global_functions.size(), 0);
+    std::vector<std::uint16_t> places;
+    places.reserve(coupled.size());
     for (unsigned int f = 0; f < global_functions.size(); ++f)
       {
-        next_mirrors.push_back(mirrors.size());
         std::size_t k = row_begins[f];
+        for (std::size_t c = begins[f]; c < begins[f + 1]; ++c, ++k)
+          {
+            while (row_columns[k] != columns[coupled[c]])
+              ++k;
+            places.push_back(k - row_begins[f]);
+          }
+      }
+
+    // Functions and what they couple with are in ascending order: in each row,
+    // one coupling after the other is reached from the other side.
+    std::vector<std::size_t> next(begins.begin(), begins.end() - 1);
+    mirrors.clear();
+    mirror_begins.assign(1, 0);
+    first_places.clear();
+    for (unsigned int f = 0; f < global_functions.size(); ++f)
+      {
+        std::uint16_t n_from_mirrors = 0;
         for (std::size_t c = begins[f]; c < begins[f + 1]; ++c)
           {
-            const unsigned int g = coupled[c];
-            while (row_columns[k] != columns[g])
-              ++k;
-            const std::uint16_t place = k - row_begins[f];
-            if (g < f)
-              mirrors[next_mirrors[g]++].to = place;
-            else if (g > f)
-              mirrors.push_back({g, place, 0});
-            else if (place == c - begins[f])
-              first_places[f] = place;
+            const unsigned int g        = coupled[c];
+            const std::size_t  reversed = next[g]++;
+            if (closing_numbers[g] > closing_numbers[f])
+              mirrors.push_back({g, places[c], places[reversed]});
+            else if (g != f && places[c] == n_from_mirrors)
+              ++n_from_mirrors;
           }
         mirror_begins.push_back(mirrors.size());
+        first_places.push_back(n_from_mirrors);
       }
   }
 
@@ -245,8 +255,8 @@ namespace EBSMPM
   void
   SystemMatrix::find_runs(const Occurrences &occurrences)
   {
-    // For each pair of functions of a list, the place of the one with the
-    // higher number in the row of the other one.
+    // For each pair of functions of a list, the place of the one whose row is
+    // closed later in the row of the other one.
     const unsigned int n_lists = list_begins.size() - 1;
     const auto         size_of = [&](const unsigned int l) {
       return list_begins[l + 1] - list_begins[l];
@@ -265,7 +275,7 @@ namespace EBSMPM
         occurrences.visit(f, [&](const unsigned int l, const unsigned int i) {
           const unsigned int *g = list_functions.data() + list_begins[l];
           for (unsigned int j = 0; j < size_of(l); ++j)
-            if (g[j] >= f)
+            if (closing_numbers[g[j]] >= closing_numbers[f])
               places[begins[l] + std::min(i, j) * size_of(l) + std::max(i, j)] =
                 place_of[columns[g[j]]];
         });
@@ -281,14 +291,17 @@ namespace EBSMPM
           {
             const std::uint16_t *place =
               places.data() + begins[l] + i * size_of(l);
+            bool is_run = false;
             for (unsigned int j = i; j < size_of(l); ++j)
-              if (g[j] < g[i])
-                runs.push_back({place[j], 1, true});
-              else if (j > i && g[j - 1] >= g[i] &&
-                       place[j] == place[j - 1] + 1)
-                ++runs.back().size;
-              else
-                runs.push_back({place[j], 1, false});
+              {
+                const bool is_transposed =
+                  closing_numbers[g[j]] < closing_numbers[g[i]];
+                if (is_run && !is_transposed && place[j] == place[j - 1] + 1)
+                  ++runs.back().size;
+                else
+                  runs.push_back({place[j], 1, is_transposed});
+                is_run = !is_transposed;
+              }
           }
         run_begins.push_back(runs.size());
       }
@@ -297,16 +310,13 @@ namespace EBSMPM
 
 
   void
-  SystemMatrix::assign_slots(const Occurrences &occurrences)
+  SystemMatrix::number_closings(const Occurrences &occurrences)
   {
     const unsigned int n_known = global_functions.size();
-    std::size_t        width   = 0;
-    slots.assign(n_known, 0);
     first_lists.assign(n_known, 1);
     last_lists.assign(n_known, 0);
     for (unsigned int f = 0; f < n_known; ++f)
       {
-        width         = std::max<std::size_t>(width, row_length(f));
         bool is_first = true;
         occurrences.visit(f, [&](const unsigned int l, const unsigned int) {
           if (is_first)
@@ -316,11 +326,28 @@ namespace EBSMPM
         });
       }
 
+    closing_numbers.assign(n_known, numbers::invalid_unsigned_int);
+    unsigned int n_closed = 0;
+    for (unsigned int l = 0; l + 1 < list_begins.size(); ++l)
+      for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
+        if (last_lists[list_functions[k]] == l)
+          closing_numbers[list_functions[k]] = n_closed++;
+  }
+
+
+
+  void
+  SystemMatrix::assign_slots()
+  {
+    const unsigned int n_known = global_functions.size();
+    std::size_t        width   = 0;
+    for (unsigned int f = 0; f < n_known; ++f)
+      width = std::max<std::size_t>(width, row_length(f));
+
     // The slot that was left last is taken first: it is in the caches.
-    std::vector<unsigned int> closing_numbers(n_known, 0);
-    unsigned int              n_closed = 0;
     std::vector<unsigned int> free_slots;
     unsigned int              n_slots = 0, max_size = 0;
+    slots.assign(n_known, 0);
     for (unsigned int l = 0; l + 1 < list_begins.size(); ++l)
       {
         for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
@@ -335,27 +362,13 @@ namespace EBSMPM
           }
         for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
           if (last_lists[list_functions[k]] == l)
-            {
-              free_slots.push_back(slots[list_functions[k]]);
-              closing_numbers[list_functions[k]] = n_closed++;
-            }
+            free_slots.push_back(slots[list_functions[k]]);
         max_size =
           std::max<unsigned int>(max_size, list_begins[l + 1] - list_begins[l]);
       }
     slot_size = n_components * n_components * width;
     open_rows.resize(n_slots * slot_size);
     row_pointers.resize(max_size);
-
-    late_mirror_begins.clear();
-    for (unsigned int f = 0; f < n_known; ++f)
-      late_mirror_begins.push_back(
-        std::partition(mirrors.begin() + mirror_begins[f],
-                       mirrors.begin() + mirror_begins[f + 1],
-                       [&](const Mirror &mirror) {
-                         return closing_numbers[mirror.function] >
-                                closing_numbers[f];
-                       }) -
-        mirrors.begin());
   }
 
 
@@ -550,25 +563,13 @@ namespace EBSMPM
 
     const double *const blocks = open_row(function);
     const std::size_t   begin  = mirror_begins[function];
-    const std::size_t   late   = late_mirror_begins[function];
-    const std::size_t   end    = mirror_begins[function + 1];
     with_constant(n_components, [&](const auto nc) {
-      run_best<CopyMirrors<nc()>>(late - begin,
+      run_best<CopyMirrors<nc()>>(mirror_begins[function + 1] - begin,
                                   mirrors.data() + begin,
                                   blocks,
                                   open_rows.data(),
                                   slot_size,
                                   slots.data());
-      for (std::size_t k = late; k < end; ++k)
-        {
-          const Mirror &mirror = mirrors[k];
-          const double *from   = blocks + mirror.from * nc() * nc();
-          double       *to     = row(mirror.function) + mirror.to * nc();
-          for (unsigned int a = 0; a < nc(); ++a)
-            for (unsigned int b = 0; b < nc(); ++b)
-              to[a * nc() * row_length(mirror.function) + b] =
-                from[b * nc() + a];
-        }
       if (wanted == nullptr || (*wanted)[function])
         run_best<SplitRow<nc()>>(row_length(function), blocks, row(function));
     });
@@ -622,11 +623,12 @@ namespace EBSMPM
            runs.capacity() * sizeof(Run) + mirrors.capacity() * sizeof(Mirror) +
            first_places.capacity() * sizeof(std::uint16_t) +
            (columns.capacity() + row_columns.capacity() + slots.capacity() +
-            first_lists.capacity() + last_lists.capacity()) *
+            closing_numbers.capacity() + first_lists.capacity() +
+            last_lists.capacity()) *
              sizeof(unsigned int) +
            (list_begins.capacity() + run_begins.capacity() +
             row_begins.capacity() + mirror_begins.capacity() +
-            late_mirror_begins.capacity() + arrival_places.capacity()) *
+            arrival_places.capacity()) *
              sizeof(std::size_t) +
            row_pointers.capacity() * sizeof(double *) +
            (open_rows.capacity() + ghost_entries.capacity() +

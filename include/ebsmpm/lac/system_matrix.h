@@ -33,12 +33,12 @@ namespace EBSMPM
    *
    * Rows that local matrices are being added to are kept aside, as open rows,
    * with all components of a function next to each other, so that a local
-   * matrix is added along lines of functions. Of each pair of functions, only
-   * the row of the one with the lower number is added to. A row is closed after
-   * the last local matrix that has a share in it: what is behind its diagonal
-   * goes to the rows that mirror it, and all of it is written to the sparse
-   * matrix. As neighbouring cells follow each other, few rows are open at a
-   * time, and they stay in the caches.
+   * matrix is added along lines of functions. A row is closed after the last
+   * local matrix that has a share in it. As neighbouring cells follow each
+   * other, few rows are open at a time, and they stay in the caches. Of each
+   * pair of functions, only the row that is closed first is added to; when that
+   * is done, the block of the pair goes to the other row, and the row to the
+   * sparse matrix.
    *
    * Rows of other processes are kept here, in the same way, until compress()
    * sends them, in messages whose contents have been agreed on by reinit().
@@ -136,8 +136,8 @@ namespace EBSMPM
     };
 
     /**
-     * A block of a row behind its diagonal, and its place in the row of the
-     * function there.
+     * A block of a row that is closed before that of the function it couples
+     * with, and its place there.
      */
     struct Mirror
     {
@@ -215,9 +215,13 @@ namespace EBSMPM
     void
     find_runs(const Occurrences &occurrences);
 
+    /** Find the first and the last list of each row. */
+    void
+    number_closings(const Occurrences &occurrences);
+
     /** Give each row a place among the open rows for the time it needs one. */
     void
-    assign_slots(const Occurrences &occurrences);
+    assign_slots();
 
     /** How many functions the row of a function couples it with. */
     unsigned int
@@ -285,25 +289,23 @@ namespace EBSMPM
     std::vector<Run>         runs;
     std::vector<std::size_t> run_begins;
 
-    /**
-     * The mirrors of the row of each function: those whose rows are still open
-     * when it is closed, and then the late ones.
-     */
+    /** The mirrors of the row of each function. */
     std::vector<Mirror>      mirrors;
     std::vector<std::size_t> mirror_begins;
-    std::vector<std::size_t> late_mirror_begins;
 
-    /** The place in each row from which on it is not all from mirrors. */
+    /** The first place in each row that does not come from a mirror. */
     std::vector<std::uint16_t> first_places;
 
     /**
-     * For each function, its place among the open rows, and the first and the
-     * last list that needs it. Own functions that no list needs have a last
-     * list before the first one.
+     * For each function, the first and the last list that needs its row, the
+     * number of the row in the order in which rows are closed, and its place
+     * among the open rows. Own functions that no list needs have a last list
+     * before the first one.
      */
-    std::vector<unsigned int> slots;
     std::vector<unsigned int> first_lists;
     std::vector<unsigned int> last_lists;
+    std::vector<unsigned int> closing_numbers;
+    std::vector<unsigned int> slots;
 
     /** The open rows, how long one is at most, and the list that is next. */
     std::vector<double> open_rows;
