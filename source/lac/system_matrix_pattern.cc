@@ -17,7 +17,6 @@
 #include <Epetra_Map.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace EBSMPM
@@ -78,7 +77,7 @@ namespace EBSMPM
                                   list_functions,
                                   list_begins);
     find_rows(occurrences);
-    number_closings(occurrences);
+    number_closings();
     exchange_rows(functions);
     build_matrix(functions);
     find_runs(occurrences);
@@ -156,6 +155,7 @@ namespace EBSMPM
     places.reserve(coupled.size());
     for (unsigned int f = 0; f < global_functions.size(); ++f)
       {
+        AssertThrow(row_length(f) <= Run::max_size, ExcInternalError());
         std::size_t k = row_begins[f];
         for (std::size_t c = begins[f]; c < begins[f + 1]; ++c, ++k)
           {
@@ -268,8 +268,6 @@ namespace EBSMPM
     std::vector<std::uint16_t> place_of(n_owned + foreign_columns.n_elements());
     for (unsigned int f = 0; f < global_functions.size(); ++f)
       {
-        AssertThrow(row_length(f) <= std::numeric_limits<std::uint16_t>::max(),
-                    ExcInternalError());
         for (std::size_t k = row_begins[f]; k < row_begins[f + 1]; ++k)
           place_of[row_columns[k]] = k - row_begins[f];
         occurrences.visit(f, [&](const unsigned int l, const unsigned int i) {
@@ -310,21 +308,19 @@ namespace EBSMPM
 
 
   void
-  SystemMatrix::number_closings(const Occurrences &occurrences)
+  SystemMatrix::number_closings()
   {
     const unsigned int n_known = global_functions.size();
     first_lists.assign(n_known, 1);
     last_lists.assign(n_known, 0);
-    for (unsigned int f = 0; f < n_known; ++f)
-      {
-        bool is_first = true;
-        occurrences.visit(f, [&](const unsigned int l, const unsigned int) {
-          if (is_first)
+    for (unsigned int l = 0; l + 1 < list_begins.size(); ++l)
+      for (std::size_t k = list_begins[l]; k < list_begins[l + 1]; ++k)
+        {
+          const unsigned int f = list_functions[k];
+          if (last_lists[f] < first_lists[f])
             first_lists[f] = l;
-          is_first      = false;
           last_lists[f] = l;
-        });
-      }
+        }
 
     closing_numbers.assign(n_known, numbers::invalid_unsigned_int);
     unsigned int n_closed = 0;

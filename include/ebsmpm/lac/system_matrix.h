@@ -130,6 +130,9 @@ namespace EBSMPM
      */
     struct Run
     {
+      /** The largest size, and with it the largest length of a row. */
+      static constexpr unsigned int max_size = (1U << 15) - 1;
+
       std::uint16_t place;
       std::uint16_t size : 15;
       std::uint16_t is_transposed : 1;
@@ -215,9 +218,10 @@ namespace EBSMPM
     void
     find_runs(const Occurrences &occurrences);
 
-    /** Find the first and the last list of each row. */
+    /** Find the first and the last list of each row, and the order of closing.
+     */
     void
-    number_closings(const Occurrences &occurrences);
+    number_closings();
 
     /** Give each row a place among the open rows for the time it needs one. */
     void
