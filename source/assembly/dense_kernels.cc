@@ -27,20 +27,20 @@ namespace EBSMPM
        * B, and all of A, stay in the first cache; and in a panel downwards from
        * tile to tile, numbers of C that stay in registers while the inner
        * dimension is summed up. Tiles are as large as there are registers for
-       * them: sums that are too few do not hide the latency of an addition.
-       *
-       * Heights of tiles are multiples of step: nine and 27 functions make
-       * tiles of three rows, 16 and 64 of four.
+       * them: sums that are too few do not hide the latency of an addition. But
+       * with wide tiles, much is computed in vain before the diagonal of a
+       * symmetric matrix; where registers are long, two of them are enough.
        */
       template <unsigned int n_bytes>
       struct TransposedProductTiles
       {
         using L = Lanes<n_bytes>;
 
-        /** Number of registers for the sums, and the height beyond which tiles
-         * do not become faster. */
-        static constexpr unsigned int n_registers = (n_bytes == 64 ? 27 : 12);
-        static constexpr unsigned int max_height  = 9;
+        /** Number of registers for the sums, the height beyond which tiles do
+         * not become faster, and the width in registers. */
+        static constexpr unsigned int n_registers   = (n_bytes == 64 ? 18 : 12);
+        static constexpr unsigned int max_height    = 9;
+        static constexpr unsigned int max_n_vectors = (n_bytes == 64 ? 2 : 4);
 
         const unsigned int n_inner;
         const unsigned int n_rows;
@@ -52,58 +52,42 @@ namespace EBSMPM
         const bool         add;
         const unsigned int block_size;
 
-        /** All panels, as wide as the registers allow with this step. */
-        template <unsigned int step>
-        EBSMPM_IN_EACH_TARGET void
-        all_panels() const
-        {
-          panels<step, n_bytes == 64 ? 3 : (step == 4 ? 2 : 4)>(0);
-        }
-
         /** Panels of so many vectors from column j on, then narrower ones. */
-        template <unsigned int step, unsigned int n_vectors>
+        template <unsigned int n_vectors = max_n_vectors>
         EBSMPM_IN_EACH_TARGET void
-        panels(unsigned int j) const
+        panels(unsigned int j = 0) const
         {
           constexpr unsigned int width = n_vectors * L::n;
-          constexpr unsigned int n_steps =
-            std::min(max_height / step, n_registers / (n_vectors * step));
           for (; j + width <= n_columns; j += width)
-            tiles<step, n_vectors, n_steps>(n_rows_until(j + width, step), j);
+            tiles<n_vectors, std::min(max_height, n_registers / n_vectors)>(
+              n_rows_until(j + width), j);
           if constexpr (n_vectors > 1)
-            panels<step, n_vectors - 1>(j);
+            panels<n_vectors - 1>(j);
         }
 
         /** The number of rows that are wanted in the columns before this. */
         EBSMPM_IN_EACH_TARGET unsigned int
-        n_rows_until(const unsigned int end_column,
-                     const unsigned int step) const
+        n_rows_until(const unsigned int end_column) const
         {
-          if (block_size == 0)
-            return n_rows;
-          const unsigned int n_columns_of_step = step * block_size;
-          const unsigned int n_steps =
-            (end_column + n_columns_of_step - 1) / n_columns_of_step;
-          return std::min(n_rows, n_steps * step);
+          return block_size == 0 ?
+                   n_rows :
+                   std::min(n_rows, (end_column + block_size - 1) / block_size);
         }
 
-        /** Tiles of so many steps, as long as they fit, then lower ones. */
-        template <unsigned int step,
-                  unsigned int n_vectors,
-                  unsigned int n_steps>
+        /** Tiles of this height, as long as they fit, then lower ones. */
+        template <unsigned int n_vectors, unsigned int height>
         EBSMPM_IN_EACH_TARGET void
         tiles(const unsigned int end_row,
               const unsigned int j,
               unsigned int       i = 0) const
         {
-          constexpr unsigned int height = n_steps * step;
           for (; i + height <= end_row; i += height)
-            tile<height, n_vectors>(A + i, B + j, C + i * n_columns + j);
-          if constexpr (n_steps > 1)
-            tiles<step, n_vectors, n_steps - 1>(end_row, j, i);
+            tile<n_vectors, height>(A + i, B + j, C + i * n_columns + j);
+          if constexpr (height > 1)
+            tiles<n_vectors, height - 1>(end_row, j, i);
         }
 
-        template <unsigned int height, unsigned int n_vectors>
+        template <unsigned int n_vectors, unsigned int height>
         EBSMPM_IN_EACH_TARGET void
         tile(const double *a, const double *b, double *c) const
         {
@@ -143,12 +127,7 @@ namespace EBSMPM
         {
           const TransposedProductTiles<n_bytes> product = {
             n_inner, n_rows, n_columns, A, lda, B, C, add, block_size};
-          if (n_rows % 3 == 0)
-            product.template all_panels<3>();
-          else if (n_rows % 4 == 0)
-            product.template all_panels<4>();
-          else
-            product.template all_panels<1>();
+          product.panels();
         }
       };
 

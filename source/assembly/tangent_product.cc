@@ -23,8 +23,10 @@ namespace EBSMPM
     const unsigned int c_stride = DenseKernels::padded(dim * dim * n_functions);
     n                           = n_functions;
     x_stride                    = DenseKernels::padded(n);
-    X.assign(n_rows * n_points * x_stride, 0.);
-    cX.assign(n_rows * n_points * c_stride + DenseKernels::padding, 0.);
+    X.resize_fast(n_rows * n_points * x_stride);
+    X.fill(0.);
+    cX.resize_fast(n_rows * n_points * c_stride + DenseKernels::padding);
+    cX.fill(0.);
   }
 
 

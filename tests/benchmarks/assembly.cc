@@ -14,10 +14,12 @@
 // time with the number of points.
 //
 // Two columns compare with dgemm, in this process: the time that it takes for
-// the operations that are left here, the products with gradients, cG and the
-// half of G^T(cG) that symmetry leaves, as a part of the time measured.
-// "dgemm" is with the matrices of a cell, which are small: the time of the same
-// products, called one by one. "peak" is with the speed for large matrices.
+// the operations that are left here, as a part of the time measured. These are
+// the products with gradients: cG, and the half of G^T(cG) that symmetry
+// leaves; on the boundary, the same with values and gradients; the gradients of
+// the increment, and the residual. "dgemm" is with the matrices of a cell,
+// which are small: the time of the same products, called one by one. "peak" is
+// with the speed for large matrices.
 //
 // Arguments: dimension (2), points per direction (3), the number of cells per
 // direction of the smallest block (16), and the number of sizes (4).
@@ -73,24 +75,28 @@ seconds(const Function &function, const unsigned int n_repetitions = 5)
 
 
 
-/** A product of matrices, with dgemm. */
+/**
+ * A product of matrices, with dgemm, in the form that is fastest for matrices
+ * that are small: both have their inner dimension as columns, which lie in one
+ * piece.
+ */
 class MatrixProduct
 {
 public:
   MatrixProduct(const unsigned int n_inner,
                 const unsigned int n_rows,
                 const unsigned int n_columns)
-    : A(n_inner, n_rows)
-    , B(n_inner, n_columns)
+    : A(n_rows, n_inner)
+    , B(n_columns, n_inner)
     , C(n_rows, n_columns)
     , n_flops(2. * n_inner * n_rows * n_columns)
   {
     for (unsigned int i = 0; i < n_inner; ++i)
       {
         for (unsigned int j = 0; j < n_rows; ++j)
-          A(i, j) = 1. / (1. + i + j);
+          A(j, i) = 1. / (1. + i + j);
         for (unsigned int j = 0; j < n_columns; ++j)
-          B(i, j) = 1. / (1. + i * j);
+          B(j, i) = 1. / (1. + i * j);
       }
   }
 
@@ -102,7 +108,7 @@ public:
     return seconds(
              [&]() {
                for (unsigned int i = 0; i < n_repetitions; ++i)
-                 A.Tmmult(C, B);
+                 A.mTmult(C, B);
              },
              1) /
            (n_repetitions * n_flops);
@@ -294,19 +300,41 @@ run(const unsigned int n_cells,
     }
 
   // Of the symmetric matrix of a cell, the diagonal and what is above it; and
-  // for each point, how gradients are combined: with the moduli of each pair of
-  // components, or with the deformation gradient.
+  // for each point, how its rows, gradients and on the boundary values, too,
+  // are combined: with the moduli of each pair of components, or with the
+  // deformation gradient.
+  struct Points
+  {
+    double       all;
+    unsigned int in_cell;
+  };
+  const Points of_body     = {n_points, Utilities::pow(n_per_direction, dim)};
+  const Points of_boundary = {
+    Utilities::MPI::sum(double(body.boundary_points.n_points()),
+                        MPI_COMM_WORLD),
+    Utilities::pow(n_per_direction, dim - 1)};
   const unsigned int n_functions       = Utilities::pow(3, dim);
-  const unsigned int n_in_cell         = Utilities::pow(n_per_direction, dim);
-  const auto         symmetric_product = [&](const unsigned int n_rows,
+  const auto         symmetric_product = [&](const Points      &points,
+                                     const unsigned int n_rows,
                                      const unsigned int n_components) {
     const unsigned int size = n_components * n_functions;
-    return CellProduct{{n_rows * n_in_cell, size, n_functions},
-                       n_points * n_rows * size * (size + 1.)};
+    return CellProduct{{n_rows * points.in_cell, size, n_functions},
+                       points.all * n_rows * size * (size + 1.)};
   };
-  const auto combination = [&](const unsigned int n_rows) {
-    return CellProduct{{dim, n_rows, n_functions},
-                       n_points * 2. * dim * n_rows * n_functions};
+  const auto combination = [&](const Points      &points,
+                               const unsigned int n_rows,
+                               const unsigned int n_results) {
+    return CellProduct{{n_rows, n_results, n_functions},
+                       points.all * 2. * n_rows * n_results * n_functions};
+  };
+
+  const auto gradients = [&](const Points &points) {
+    return CellProduct{{n_functions, dim, dim * points.in_cell},
+                       points.all * 2. * n_functions * dim * dim};
+  };
+  const auto residuals = [&](const Points &points) {
+    return CellProduct{{dim * points.in_cell, dim, n_functions},
+                       points.all * 2. * dim * dim * n_functions};
   };
 
   LA::FieldVector x = u_system.make_vector(), residual = x, update = x;
@@ -320,7 +348,12 @@ run(const unsigned int n_cells,
               }));
   table.compare("tangent and residual",
                 n_points,
-                {symmetric_product(dim, dim), combination(dim * dim * dim)},
+                {symmetric_product(of_body, dim, dim),
+                 combination(of_body, dim, dim * dim * dim),
+                 gradients(of_body),
+                 residuals(of_body),
+                 symmetric_product(of_boundary, dim + 1, dim),
+                 combination(of_boundary, dim + 1, (dim + 1) * dim * dim)},
                 [&]() {
                   u_system.assemble_tangent(body.state,
                                             body.boundary,
@@ -354,15 +387,13 @@ run(const unsigned int n_cells,
               }));
 
   LA::FieldVector right_hand_side = d_system.make_vector();
-  table.compare("damage matrix",
-                n_points,
-                {symmetric_product(dim + 1, 1), combination(dim)},
-                [&]() {
-                  d_system.assemble(body.state,
-                                    body.boundary,
-                                    {},
-                                    right_hand_side);
-                });
+  table.compare(
+    "damage matrix",
+    n_points,
+    {symmetric_product(of_body, dim + 1, 1), combination(of_body, dim, dim)},
+    [&]() {
+      d_system.assemble(body.state, body.boundary, {}, right_hand_side);
+    });
 
   // The crack partition. A second update finds frozen labels.
   CrackPartition<dim> partition(body.space);

@@ -18,6 +18,7 @@
 #include <ebsmpm/assembly/extension_product.h>
 #include <ebsmpm/assembly/point_groups.h>
 
+#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/tensor.h>
 
 #include <array>
@@ -199,10 +200,11 @@ namespace EBSMPM
 
     std::vector<Tensor<1, dim>> coefficients;
 
-    unsigned int        stride = 0;
-    std::vector<double> tangent_rows;
-    bool                tangent_begun = false;
-    ExtensionProduct    extension_product;
+    unsigned int stride = 0;
+    /** The tangent, for the kernels at the beginning of a cache line. */
+    AlignedVector<double> tangent_rows;
+    bool                  tangent_begun = false;
+    ExtensionProduct      extension_product;
   };
 
 

@@ -14,7 +14,7 @@
 
 #include <ebsmpm/assembly/local_system.h>
 
-#include <vector>
+#include <deal.II/base/aligned_vector.h>
 
 namespace EBSMPM
 {
@@ -87,8 +87,8 @@ namespace EBSMPM
     unsigned int n        = 0;
     unsigned int x_stride = 0;
 
-    std::vector<double> X;
-    std::vector<double> cX;
+    AlignedVector<double> X;
+    AlignedVector<double> cX;
   };
 } // namespace EBSMPM
 
