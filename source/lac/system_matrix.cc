@@ -221,6 +221,36 @@ namespace EBSMPM
 
 
   void
+  SystemMatrix::fetch_rows(const unsigned int list)
+  {
+    const unsigned int  n = list_begins[list + 1] - list_begins[list];
+    const unsigned int *f = list_functions.data() + list_begins[list];
+    for (unsigned int i = 0; i < n; ++i)
+      row_pointers[i] = open_row(f[i]);
+
+    // A block of nine numbers is in two cache lines. Of a run, the list before,
+    // that of the cell next to it, had all but the last block.
+    const unsigned int block_size  = n_components * n_components;
+    const auto         fetch_block = [block_size](const double *block) {
+      __builtin_prefetch(block, 1, 2);
+      __builtin_prefetch(block + block_size - 1, 1, 2);
+    };
+    const Run *run = runs.data() + run_begins[list];
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = i; j < n; j += run->size, ++run)
+        fetch_block(row_pointers[run->is_transposed ? j : i] +
+                    (run->place + run->size - 1) * block_size);
+    for (unsigned int i = 0; i < n; ++i)
+      if (last_lists[f[i]] == list)
+        for (std::size_t k = mirror_begins[f[i]]; k < mirror_begins[f[i] + 1];
+             ++k)
+          fetch_block(open_row(mirrors[k].function) +
+                      mirrors[k].to * block_size);
+  }
+
+
+
+  void
   SystemMatrix::add_list(const unsigned int list,
                          const double      *values,
                          const unsigned int stride)
@@ -245,6 +275,11 @@ namespace EBSMPM
     for (unsigned int i = 0; i < n; ++i)
       if (last_lists[f[i]] == list)
         close_row(f[i]);
+
+    // Open rows that stay in the caches next to the core need not be fetched.
+    if (open_rows.size() * sizeof(double) > (1U << 20) &&
+        list + 2 < list_begins.size())
+      fetch_rows(list + 1);
   }
 
 

@@ -10,6 +10,8 @@
 // The part of SystemMatrix that finds out where things belong: rows, the order
 // in which they are closed, mirrors, and runs.
 
+#include <ebsmpm/base/large_pages.h>
+
 #include <ebsmpm/lac/system_matrix.h>
 
 #include <Epetra_CrsGraph.h>
@@ -363,7 +365,7 @@ namespace EBSMPM
           std::max<unsigned int>(max_size, list_begins[l + 1] - list_begins[l]);
       }
     slot_size = n_components * n_components * width;
-    open_rows.resize(n_slots * slot_size);
+    resize_in_large_pages(open_rows, n_slots * slot_size);
     row_pointers.resize(max_size);
   }
 } // namespace EBSMPM

@@ -251,6 +251,13 @@ namespace EBSMPM
     close_row(const unsigned int function);
 
     /**
+     * Ask the memory for what a list is added to, and what the rows that it
+     * closes are mirrored to.
+     */
+    void
+    fetch_rows(const unsigned int list);
+
+    /**
      * Add a local matrix, or nothing if there is none, and open and close the
      * rows that begin and end with this list.
      */
@@ -320,7 +327,7 @@ namespace EBSMPM
     const std::vector<bool> *wanted = nullptr;
     std::vector<bool>        needed;
 
-    /** Scratch for add(): the open rows of a list. */
+    /** Scratch: the open rows of a list. */
     std::vector<double *> row_pointers;
 
     /** The rows of functions of other processes, and to whom they go. */
