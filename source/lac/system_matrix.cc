@@ -16,6 +16,14 @@
 
 namespace EBSMPM
 {
+  namespace
+  {
+    /** In bytes: open rows that fit in there need not be fetched. */
+    constexpr std::size_t size_of_near_caches = 1U << 20;
+  } // namespace
+
+
+
   void
   SystemMatrix::begin(const std::vector<bool> *wanted_functions)
   {
@@ -46,6 +54,12 @@ namespace EBSMPM
     for (; next_list < list; ++next_list)
       add_list(next_list, nullptr, 0);
     add_list(next_list++, values, stride);
+
+    // The next list is most often the next one to be added.
+    const bool is_large =
+      open_rows.size() * sizeof(double) > size_of_near_caches;
+    if (is_large && next_list + 1 < list_begins.size())
+      fetch_rows(next_list);
   }
 
 
@@ -275,11 +289,6 @@ namespace EBSMPM
     for (unsigned int i = 0; i < n; ++i)
       if (last_lists[f[i]] == list)
         close_row(f[i]);
-
-    // Open rows that stay in the caches next to the core need not be fetched.
-    if (open_rows.size() * sizeof(double) > (1U << 20) &&
-        list + 2 < list_begins.size())
-      fetch_rows(list + 1);
   }
 
 

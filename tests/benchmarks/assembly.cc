@@ -327,7 +327,6 @@ run(const unsigned int n_cells,
     return CellProduct{{n_rows, n_results, n_functions},
                        points.all * 2. * n_rows * n_results * n_functions};
   };
-
   const auto gradients = [&](const Points &points) {
     return CellProduct{{n_functions, dim, dim * points.in_cell},
                        points.all * 2. * n_functions * dim * dim};

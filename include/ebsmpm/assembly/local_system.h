@@ -201,6 +201,7 @@ namespace EBSMPM
     std::vector<Tensor<1, dim>> coefficients;
 
     unsigned int stride = 0;
+
     /** The tangent, for the kernels at the beginning of a cache line. */
     AlignedVector<double> tangent_rows;
     bool                  tangent_begun = false;

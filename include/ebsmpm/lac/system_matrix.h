@@ -218,8 +218,7 @@ namespace EBSMPM
     void
     find_runs(const Occurrences &occurrences);
 
-    /** Find the first and the last list of each row, and the order of closing.
-     */
+    /** Find the first and last list of each row, and the order of closing. */
     void
     number_closings();
 
