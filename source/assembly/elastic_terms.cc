@@ -9,7 +9,6 @@
 
 #include <ebsmpm/splines/bspline_kernel.h>
 
-#include <ebsmpm/assembly/dense_kernels.h>
 #include <ebsmpm/assembly/elastic_terms.h>
 #include <ebsmpm/assembly/point_values.h>
 
@@ -34,12 +33,7 @@ namespace EBSMPM
     const unsigned int n_points = std::max(max_n_points, 1U);
     batch.initialize(n_points);
 
-    product.initialize(n_functions, n_points);
-    const unsigned int stride = product.stride();
-    coefficients.assign(dim * stride, 0.);
-    gradients.resize(dim * n_points * dim);
-    stresses.resize(dim * n_points * dim);
-    residual.resize(dim * stride);
+    products.initialize(n_functions, n_points);
   }
 
 
@@ -56,10 +50,10 @@ namespace EBSMPM
     material.respond(batch, with_tangent);
     add_residual(local);
     if (with_tangent)
-      product.compute(local.n_points(),
-                      batch.tangent(0, 0, 0),
-                      batch.row_length(),
-                      local);
+      products.add_tangent(local.n_points(),
+                           batch.tangent(0, 0, 0),
+                           batch.row_length(),
+                           local);
   }
 
 
@@ -70,24 +64,15 @@ namespace EBSMPM
                             const std::vector<EnergyBranch> &branches,
                             const LocalSystem<dim>          &local)
   {
-    const unsigned int n        = local.n_functions();
     const unsigned int n_points = local.n_points();
-    const unsigned int stride   = product.stride();
     std::array<double, BSplineKernel<dim>::max_n_functions> B;
 
     for (unsigned int p = 0; p < n_points; ++p)
-      local.values_and_gradients(p, B.data(), product.row(p, 0), stride);
-    for (unsigned int I = 0; I < n; ++I)
-      for (unsigned int a = 0; a < dim; ++a)
-        coefficients[a * stride + I] = local.coefficient(I)[a];
-    DenseKernels::row_products(n,
-                               dim,
-                               coefficients.data(),
-                               dim * n_points,
-                               product.row(0, 0),
-                               stride,
-                               gradients.data(),
-                               dim * n_points);
+      local.values_and_gradients(p,
+                                 B.data(),
+                                 products.row(p, 0),
+                                 products.stride());
+    products.evaluate(n_points, local);
 
     batch.reinit(n_points);
     for (unsigned int p = 0; p < n_points; ++p)
@@ -95,7 +80,7 @@ namespace EBSMPM
         std::array<Tensor<1, dim>, dim> gradient;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int d = 0; d < dim; ++d)
-            gradient[a][d] = gradients[(a * n_points + p) * dim + d];
+            gradient[a][d] = products.increment(p, d, a);
 
         const unsigned int q = local.point(p);
         batch.set(p,
@@ -114,21 +99,11 @@ namespace EBSMPM
   ElasticTerms<dim>::add_residual(LocalSystem<dim> &local)
   {
     const unsigned int n_points = local.n_points();
-    const unsigned int stride   = product.stride();
     for (unsigned int p = 0; p < n_points; ++p)
       for (unsigned int j = 0; j < dim; ++j)
         for (unsigned int i = 0; i < dim; ++i)
-          stresses[(p * dim + j) * dim + i] = batch.stress(i, j)[p];
-    DenseKernels::transposed_product(dim * n_points,
-                                     dim,
-                                     stride,
-                                     stresses.data(),
-                                     dim,
-                                     product.row(0, 0),
-                                     residual.data());
-    for (unsigned int I = 0; I < local.n_functions(); ++I)
-      for (unsigned int i = 0; i < dim; ++i)
-        local.residual[I][i] += residual[i * stride + I];
+          products.dual(p, j, i) = batch.stress(i, j)[p];
+    products.add_residual(n_points, local);
   }
 
 

@@ -7,6 +7,8 @@
 //
 // -----------------------------------------------------------------------------
 
+#include <ebsmpm/base/lanes.h>
+
 #include <ebsmpm/assembly/nitsche_terms.h>
 #include <ebsmpm/assembly/point_values.h>
 
@@ -28,11 +30,76 @@ namespace EBSMPM
   NitscheTerms<dim>::initialize(const unsigned int n_functions,
                                 const unsigned int max_n_points)
   {
-    max_points = max_n_points;
-    product.initialize(n_functions, max_n_points);
-    coefficients.resize(MaterialBatch<dim>::n_pairs * (dim + 1) * (dim + 1) *
-                        max_n_points);
+    batch.initialize(max_n_points);
+    products.initialize(n_functions, max_n_points);
+    is_prescribed.assign(dim * batch.row_length(), 0.);
+    duals.resize((dim + 1) * dim * batch.row_length());
+    coefficients.resize(batch.n_pairs * (dim + 1) * (dim + 1) *
+                        batch.row_length());
   }
+
+
+
+  template <int dim>
+  struct NitscheTerms<dim>::Combine
+  {
+    /** The numbers of the residual, and those of the tangent if wanted. */
+    template <unsigned int n_bytes>
+    static EBSMPM_IN_EACH_TARGET void
+    run(NitscheTerms<dim> *terms, const AssemblyTask task)
+    {
+      using L      = ShortLanes<n_bytes>;
+      using Vector = typename L::type;
+
+      TractionBatch<dim> &batch = terms->batch;
+      for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
+        {
+          const Vector penalty = terms->beta * L::load(batch.weight() + p);
+          Vector       is_prescribed[dim], w[dim];
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              is_prescribed[i] = L::load(terms->prescribed(i) + p);
+              w[i]             = L::load(batch.w(i) + p);
+              const Vector t   = L::load(batch.traction(i) + p);
+              L::store(penalty * w[i] - is_prescribed[i] * t,
+                       terms->dual(0, i) + p);
+            }
+          for (unsigned int j = 0; j < dim; ++j)
+            for (unsigned int l = 0; l < dim; ++l)
+              {
+                Vector sum = {};
+                for (unsigned int i = 0; i < dim; ++i)
+                  sum -= w[i] * L::load(batch.derivative(i, j, l) + p);
+                L::store(sum, terms->dual(1 + l, j) + p);
+              }
+          if (task == AssemblyTask::residual)
+            continue;
+
+          const Vector zero = {};
+          for (unsigned int i = 0, pair = 0; i < dim; ++i)
+            for (unsigned int k = i; k < dim; ++k, ++pair)
+              {
+                L::store(i == k ? penalty * is_prescribed[i] : zero,
+                         terms->coefficient(pair, 0, 0) + p);
+                for (unsigned int j = 0; j < dim; ++j)
+                  {
+                    const Vector T_i = L::load(batch.derivative(i, k, j) + p);
+                    const Vector T_k = L::load(batch.derivative(k, i, j) + p);
+                    L::store(-is_prescribed[i] * T_i,
+                             terms->coefficient(pair, 0, 1 + j) + p);
+                    L::store(-is_prescribed[k] * T_k,
+                             terms->coefficient(pair, 1 + j, 0) + p);
+                    for (unsigned int l = 0; l < dim; ++l)
+                      L::store(task == AssemblyTask::tangent ?
+                                 -L::load(batch.second_derivative(pair, j, l) +
+                                          p) :
+                                 zero,
+                               terms->coefficient(pair, 1 + j, 1 + l) + p);
+                  }
+              }
+        }
+    }
+  };
 
 
 
@@ -43,25 +110,26 @@ namespace EBSMPM
                              const std::vector<EnergyBranch> &branches,
                              LocalSystem<dim>                &local)
   {
-    PointData point;
-    for (unsigned int k = 0; k < local.n_points(); ++k)
-      {
-        const auto &constrained = boundary.constrained[local.point(k)];
-        evaluate(boundary, branches, local, k, point);
-        std::array<Tensor<2, dim>, dim> T;
-        for (unsigned int i = 0; i < dim; ++i)
-          if (constrained[i])
-            T[i] = traction_derivative(point, i);
+    const unsigned int n_points = local.n_points();
+    evaluate(boundary, branches, local);
+    material.respond(batch, task == AssemblyTask::tangent);
+    run_best<Combine>(this, task);
 
-        add_residual(point, constrained, T, local);
-        const Tensor<1, dim> traction = boundary.traction[local.point(k)];
-        for (unsigned int I = 0; I < local.n_functions(); ++I)
-          local.residual[I] -= point.A0 * point.B[I] * traction;
-        if (task != AssemblyTask::residual)
-          set_coefficients(task, k, point, constrained, T);
-      }
+    for (unsigned int p = 0; p < n_points; ++p)
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          const unsigned int q = local.point(p);
+          products.dual(p, 0, i) =
+            dual(0, i)[p] - boundary.area[q] * boundary.traction[q][i];
+          for (unsigned int j = 0; j < dim; ++j)
+            products.dual(p, 1 + j, i) = dual(1 + j, i)[p];
+        }
+    products.add_residual(n_points, local);
     if (task != AssemblyTask::residual)
-      product.compute(local.n_points(), coefficients.data(), max_points, local);
+      products.add_tangent(n_points,
+                           coefficients.data(),
+                           batch.row_length(),
+                           local);
   }
 
 
@@ -70,121 +138,37 @@ namespace EBSMPM
   void
   NitscheTerms<dim>::evaluate(const BoundaryState<dim>        &boundary,
                               const std::vector<EnergyBranch> &branches,
-                              const LocalSystem<dim>          &local,
-                              const unsigned int               k,
-                              PointData                       &point)
+                              const LocalSystem<dim>          &local)
   {
-    local.values_and_gradients(k,
-                               product.row(k, 0),
-                               product.row(k, 1),
-                               product.stride());
-    point.B = product.row(k, 0);
-    for (unsigned int d = 0; d < dim; ++d)
-      point.G[d] = product.row(k, 1 + d);
+    const unsigned int n_points = local.n_points();
+    for (unsigned int p = 0; p < n_points; ++p)
+      local.values_and_gradients(p,
+                                 products.row(p, 0),
+                                 products.row(p, 1),
+                                 products.stride());
+    products.evaluate(n_points, local);
 
-    const unsigned int q = local.point(k);
-    point.F_n            = boundary.F[q];
-    point.F =
-      deformation<dim>(local.gradient(point.G[0], product.stride()), point.F_n);
-    point.N  = boundary.normal[q];
-    point.w  = mismatch(boundary, q, local.value(point.B));
-    point.A0 = boundary.area[q];
-    point.g  = degradation.value(boundary.damage[q]);
-    material.response(point.F, point.g, point.response, branch_of(branches, q));
-    point.traction = point.response.P * point.N;
-  }
-
-
-
-  template <int dim>
-  Tensor<2, dim>
-  NitscheTerms<dim>::traction_derivative(const PointData   &point,
-                                         const unsigned int i)
-  {
-    Tensor<2, dim> NA;
-    for (unsigned int b = 0; b < dim; ++b)
-      for (unsigned int k = 0; k < dim; ++k)
-        for (unsigned int d = 0; d < dim; ++d)
-          NA[k][d] += point.N[b] * point.response.A[i][b][k][d];
-    return NA * transpose(point.F_n);
-  }
-
-
-
-  template <int dim>
-  void
-  NitscheTerms<dim>::add_residual(const PointData             &point,
-                                  const std::array<bool, dim> &constrained,
-                                  const std::array<Tensor<2, dim>, dim> &T,
-                                  LocalSystem<dim> &local) const
-  {
-    Tensor<1, dim> of_value;
-    Tensor<2, dim> of_gradient;
-    for (unsigned int i = 0; i < dim; ++i)
-      if (constrained[i])
-        {
-          of_value[i] = point.A0 * (beta * point.w[i] - point.traction[i]);
-          of_gradient -= point.A0 * point.w[i] * T[i];
-        }
-    for (unsigned int I = 0; I < local.n_functions(); ++I)
+    batch.reinit(n_points);
+    for (unsigned int p = 0; p < n_points; ++p)
       {
-        local.residual[I] += of_value * point.B[I];
-        for (unsigned int j = 0; j < dim; ++j)
-          for (unsigned int l = 0; l < dim; ++l)
-            local.residual[I][j] += of_gradient[j][l] * point.G[l][I];
-      }
-  }
-
-
-
-  template <int dim>
-  double &
-  NitscheTerms<dim>::coefficient(const unsigned int pair,
-                                 const unsigned int j,
-                                 const unsigned int l,
-                                 const unsigned int point)
-  {
-    return coefficients[((pair * (dim + 1) + j) * (dim + 1) + l) * max_points +
-                        point];
-  }
-
-
-
-  template <int dim>
-  void
-  NitscheTerms<dim>::set_coefficients(const AssemblyTask           task,
-                                      const unsigned int           p,
-                                      const PointData             &point,
-                                      const std::array<bool, dim> &constrained,
-                                      const std::array<Tensor<2, dim>, dim> &T)
-  {
-    Tensor<4, dim> dA;
-    if (task == AssemblyTask::tangent && point.w.norm_square() > 0.)
-      dA = material.tangent_derivative(point.F,
-                                       point.g,
-                                       outer_product(point.w, point.N));
-
-    for (unsigned int i = 0, pair = 0; i < dim; ++i)
-      for (unsigned int k = i; k < dim; ++k, ++pair)
-        {
-          Tensor<2, dim> c;
-          for (unsigned int b = 0; b < dim; ++b)
+        const unsigned int              q = local.point(p);
+        Tensor<1, dim>                  value;
+        std::array<Tensor<1, dim>, dim> gradient;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            value[a] = products.increment(p, 0, a);
             for (unsigned int d = 0; d < dim; ++d)
-              c[b][d] = point.A0 * dA[i][b][k][d];
-          c = point.F_n * c * transpose(point.F_n);
-
-          coefficient(pair, 0, 0, p) =
-            (i == k && constrained[i]) ? point.A0 * beta : 0.;
-          for (unsigned int j = 0; j < dim; ++j)
-            {
-              coefficient(pair, 0, 1 + j, p) =
-                constrained[i] ? -point.A0 * T[i][k][j] : 0.;
-              coefficient(pair, 1 + j, 0, p) =
-                constrained[k] ? -point.A0 * T[k][i][j] : 0.;
-              for (unsigned int l = 0; l < dim; ++l)
-                coefficient(pair, 1 + j, 1 + l, p) = -c[j][l];
-            }
-        }
+              gradient[a][d] = products.increment(p, 1 + d, a);
+            prescribed(a)[p] = boundary.constrained[q][a] ? 1. : 0.;
+          }
+        batch.set(p,
+                  deformation<dim>(gradient, boundary.F[q]),
+                  boundary.F[q],
+                  boundary.area[q],
+                  degradation.value(boundary.damage[q]),
+                  branch_of(branches, q));
+        batch.set_vectors(p, boundary.normal[q], mismatch(boundary, q, value));
+      }
   }
 
 

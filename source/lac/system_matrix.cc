@@ -13,6 +13,11 @@
 #include <ebsmpm/lac/system_matrix.h>
 
 #include <algorithm>
+#include <cstdint>
+
+#ifdef __SSE2__
+#  include <emmintrin.h>
+#endif
 
 namespace EBSMPM
 {
@@ -20,6 +25,31 @@ namespace EBSMPM
   {
     /** In bytes: open rows that fit in there need not be fetched. */
     constexpr std::size_t size_of_near_caches = 1U << 20;
+
+    /** In bytes: of larger matrices, little is in a cache when it is needed. */
+    constexpr std::size_t size_of_far_caches = 1U << 26;
+
+
+
+    /**
+     * Copy an array to the memory without a way through the caches, which would
+     * read what is there first, only to have it overwritten.
+     */
+    void
+    copy_past_caches(const std::size_t n, const double *from, double *to)
+    {
+      std::size_t k = 0;
+#ifdef __SSE2__
+      constexpr unsigned int line = 64, pair = 16;
+      for (; k < n && reinterpret_cast<std::uintptr_t>(to + k) % line != 0; ++k)
+        to[k] = from[k];
+      for (; k + line / sizeof(double) <= n; k += line / sizeof(double))
+        for (unsigned int l = 0; l < line / sizeof(double);
+             l += pair / sizeof(double))
+          _mm_stream_pd(to + k + l, _mm_loadu_pd(from + k + l));
+#endif
+      std::copy(from + k, from + n, to + k);
+    }
   } // namespace
 
 
@@ -227,8 +257,17 @@ namespace EBSMPM
                                   open_rows.data(),
                                   slot_size,
                                   slots.data());
-      if (wanted == nullptr || (*wanted)[function])
-        run_best<SplitRow<nc()>>(row_length(function), blocks, row(function));
+      if (wanted != nullptr && !(*wanted)[function])
+        return;
+
+      const std::size_t length = nc() * nc() * row_length(function);
+      const bool        is_large =
+        nc() * nc() * row_begins[n_owned] * sizeof(double) > size_of_far_caches;
+      double *const to    = row(function);
+      double *const split = is_large ? split_row.data() : to;
+      run_best<SplitRow<nc()>>(row_length(function), blocks, split);
+      if (is_large)
+        copy_past_caches(length, split, to);
     });
   }
 
@@ -318,8 +357,8 @@ namespace EBSMPM
             arrival_places.capacity()) *
              sizeof(std::size_t) +
            row_pointers.capacity() * sizeof(double *) +
-           (open_rows.capacity() + ghost_entries.capacity() +
-            arrivals.capacity()) *
+           (open_rows.capacity() + split_row.capacity() +
+            ghost_entries.capacity() + arrivals.capacity()) *
              sizeof(double);
   }
 } // namespace EBSMPM

@@ -14,6 +14,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -207,6 +208,10 @@ namespace EBSMPM
     // Lists without a local matrix.
     if (next_list + 1 < list_begins.size())
       add(list_begins.size() - 2, nullptr, 0);
+
+    // What has been written past the caches is to be seen by other threads,
+    // too.
+    std::atomic_thread_fence(std::memory_order_seq_cst);
 
     const MPI_Comm communicator = sparse_matrix.get_mpi_communicator();
     constexpr int  tag          = 4711;

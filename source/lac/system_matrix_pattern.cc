@@ -367,5 +367,6 @@ namespace EBSMPM
     slot_size = n_components * n_components * width;
     resize_in_large_pages(open_rows, n_slots * slot_size);
     row_pointers.resize(max_size);
+    split_row.resize(slot_size);
   }
 } // namespace EBSMPM

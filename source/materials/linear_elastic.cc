@@ -191,7 +191,8 @@ namespace EBSMPM
   Tensor<4, dim>
   LinearElastic<dim>::tangent_derivative(const Tensor<2, dim> &,
                                          const double,
-                                         const Tensor<2, dim> &) const
+                                         const Tensor<2, dim> &,
+                                         const EnergyBranch) const
   {
     return Tensor<4, dim>();
   }

@@ -219,11 +219,13 @@ namespace EBSMPM
   Tensor<4, dim>
   NeoHookean<dim>::tangent_derivative(const Tensor<2, dim> &F,
                                       const double          g,
-                                      const Tensor<2, dim> &W) const
+                                      const Tensor<2, dim> &W,
+                                      const EnergyBranch    branch) const
   {
     const Kinematics<dim> k(F);
     const Tensor<2, dim>  H = transpose(invert(F));
-    const double K = volumetric_part_degrades(k.J) ? g * this->K : this->K;
+    const double          K =
+      volumetric_part_degrades(k.J, branch) ? g * this->K : this->K;
 
     // Directional derivatives: of H, of ln J and of the trace. A derivative has
     // the prefix d_.

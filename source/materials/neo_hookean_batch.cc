@@ -117,113 +117,256 @@ namespace EBSMPM
 
 
 
-    /**
-     * What the kernel computes from.
-     */
-    template <int dim>
+    /** What a kernel computes from. */
+    template <typename Batch>
     struct Task
     {
-      MaterialBatch<dim> &batch;
-      const double        K;
-      const double        G;
+      Batch       &batch;
+      const double K;
+      const double G;
 
       /** Whether there is a split of the energy. */
       const bool split;
 
-      /** Whether the tangent is wanted. */
-      const bool with_tangent;
+      /** Whether the last derivatives are wanted. */
+      const bool with_derivatives;
     };
 
 
 
     /**
+     * What the answers consist of, for a register full of points: F and H,
+     * pushed forward to the start of the step, and the coefficients (see
+     * NeoHookean), multiplied by the weight.
+     */
+    template <typename L, int dim>
+    struct Point
+    {
+      using Vector = typename L::type;
+
+      /**
+       * Compute it for the points from number @p p on. Return the determinants
+       * where they are not positive or not finite, and one elsewhere.
+       */
+      template <typename Batch>
+      EBSMPM_IN_EACH_TARGET Vector
+      reinit(const Task<Batch> &task, const unsigned int p)
+      {
+        const Batch &batch = task.batch;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              F[i][j]   = L::load(batch.F(i, j) + p);
+              F_n[i][j] = L::load(batch.F_n(i, j) + p);
+            }
+        const Vector zero = {}, one = zero + 1.;
+        const Vector infinity = zero + std::numeric_limits<double>::infinity();
+        const Vector weight   = L::load(batch.weight() + p);
+        const Vector g        = L::load(batch.degradation() + p);
+        const Vector branch   = L::load(batch.branch() + p);
+
+        H     = F.cofactors();
+        J     = F[0][0] * H[0][0];
+        trace = F[0][0] * F[0][0] + (3. - dim);
+        for (unsigned int j = 1; j < dim; ++j)
+          J += F[0][j] * H[0][j];
+        for (unsigned int k = 1; k < dim * dim; ++k)
+          trace += F[k / dim][k % dim] * F[k / dim][k % dim];
+
+        const Vector inverse_J = 1. / J;
+        for (unsigned int k = 0; k < dim * dim; ++k)
+          H[k / dim][k % dim] *= inverse_J;
+
+        // Does the volumetric part degrade?
+        const Vector K_intact = zero + task.K;
+        K                     = task.K * g;
+        if (task.split)
+          K = ((branch == zero) ? (J >= one) : (branch > zero)) ? K : K_intact;
+        K *= weight;
+
+        const Vector root = inverse_cube_root<L>(J);
+        p1                = weight * task.G * g * root * root;
+        p2                = 0.5 * K * (J * J - 1.) - p1 * trace * (1. / 3.);
+        c2                = (-2. / 3.) * p1;
+        c3                = K * J * J + (2. / 9.) * p1 * trace;
+
+        FF = F.times_transpose(F_n);
+        HF = H.times_transpose(F_n);
+        return ((J > zero) & (J < infinity)) ? one : J;
+      }
+
+      Matrix<L, dim> F, F_n, H, FF, HF;
+      Vector         J, trace, K, p1, p2, c2, c3;
+    };
+
+
+
+    /** A number that is not one, if there is any, or else one. */
+    template <typename L>
+    EBSMPM_IN_EACH_TARGET double
+    other_than_one(const typename L::type numbers)
+    {
+      for (unsigned int l = 0; l < L::n; ++l)
+        if (!(numbers[l] == 1.))
+          return numbers[l];
+      return 1.;
+    }
+
+
+
+    /**
      * NeoHookean::respond() for a register full of points after the other.
-     * Return a determinant that is not positive or not finite, or else
-     * one.
+     * Return a determinant that is not positive or not finite, or else one.
      */
     struct Respond
     {
       template <unsigned int n_bytes, int dim>
       static EBSMPM_IN_EACH_TARGET double
-      run(const Task<dim> *task)
+      run(const Task<MaterialBatch<dim>> *task)
       {
         using L      = ShortLanes<n_bytes>;
         using Vector = typename L::type;
 
         MaterialBatch<dim> &batch = task->batch;
-        const Vector zero = {}, one = zero + 1., K_intact = zero + task->K;
-        const Vector infinity = zero + std::numeric_limits<double>::infinity();
-        Vector       worst    = one;
+        const Vector        zero = {}, one = zero + 1.;
+        Vector              worst = one;
         for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
           {
-            Matrix<L, dim> F, F_n;
+            Point<L, dim> point;
+            const Vector  here = point.reinit(*task, p);
+            worst              = (worst == one) ? here : worst;
+
+            const Matrix<L, dim> &FF = point.FF, &HF = point.HF;
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
-                {
-                  F[i][j]   = L::load(batch.F(i, j) + p);
-                  F_n[i][j] = L::load(batch.F_n(i, j) + p);
-                }
-            const Vector volume = L::load(batch.volume() + p);
-            const Vector g      = L::load(batch.degradation() + p);
-            const Vector branch = L::load(batch.branch() + p);
-
-            Matrix<L, dim> H     = F.cofactors();
-            Vector         J     = F[0][0] * H[0][0];
-            Vector         trace = F[0][0] * F[0][0] + (3. - dim);
-            for (unsigned int j = 1; j < dim; ++j)
-              J += F[0][j] * H[0][j];
-            for (unsigned int k = 1; k < dim * dim; ++k)
-              trace += F[k / dim][k % dim] * F[k / dim][k % dim];
-            worst = ((J > zero) & (J < infinity)) ? worst : J;
-
-            const Vector inverse_J = 1. / J;
-            for (unsigned int k = 0; k < dim * dim; ++k)
-              H[k / dim][k % dim] *= inverse_J;
-
-            // Does the volumetric part degrade?
-            Vector K = task->K * g;
-            if (task->split)
-              K = ((branch == zero) ? (J >= one) : (branch > zero)) ? K :
-                                                                      K_intact;
-
-            const Vector root = inverse_cube_root<L>(J);
-            const Vector p1   = volume * task->G * g * root * root;
-            K *= volume;
-            const Vector p2 = 0.5 * K * (J * J - 1.) - p1 * trace * (1. / 3.);
-
-            // Pushed forward to the start of the step.
-            const Matrix<L, dim> FF = F.times_transpose(F_n);
-            const Matrix<L, dim> HF = H.times_transpose(F_n);
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                L::store(p1 * FF[i][j] + p2 * HF[i][j], batch.stress(i, j) + p);
-            if (!task->with_tangent)
+                L::store(point.p1 * FF[i][j] + point.p2 * HF[i][j],
+                         batch.stress(i, j) + p);
+            if (!task->with_derivatives)
               continue;
 
-            const Vector         c2 = (-2. / 3.) * p1;
-            const Vector         c3 = K * J * J + (2. / 9.) * p1 * trace;
-            const Matrix<L, dim> B  = F_n.times_transpose(F_n);
+            const Matrix<L, dim> B = point.F_n.times_transpose(point.F_n);
             for (unsigned int i = 0, pair = 0; i < dim; ++i)
               for (unsigned int k = i; k < dim; ++k, ++pair)
                 for (unsigned int j = 0; j < dim; ++j)
                   {
-                    const Vector of_F = c2 * HF[i][j];
-                    const Vector of_H = c2 * FF[i][j] + c3 * HF[i][j];
-                    const Vector of_T = p2 * HF[k][j];
+                    const Vector of_F = point.c2 * HF[i][j];
+                    const Vector of_H =
+                      point.c2 * FF[i][j] + point.c3 * HF[i][j];
+                    const Vector of_T = point.p2 * HF[k][j];
                     for (unsigned int l = 0; l < dim; ++l)
                       {
                         Vector c =
                           of_F * FF[k][l] + of_H * HF[k][l] - of_T * HF[i][l];
                         if (i == k)
-                          c += p1 * B[j][l];
+                          c += point.p1 * B[j][l];
                         L::store(c, batch.tangent(pair, j, l) + p);
                       }
                   }
           }
-        for (unsigned int l = 1; l < L::n; ++l)
-          if (worst[0] == 1.)
-            worst[0] = worst[l];
-        return worst[0];
+        return other_than_one<L>(worst);
+      }
+    };
+
+
+
+    /**
+     * The same for tractions. In the direction $\mathbf w\otimes\mathbf N$, the
+     * derivative of $\mathbf H$ is the dyad of $-\mathbf H\mathbf N$ and
+     * $\mathbf H^T\mathbf w$.
+     */
+    struct RespondTraction
+    {
+      template <unsigned int n_bytes, int dim>
+      static EBSMPM_IN_EACH_TARGET double
+      run(const Task<TractionBatch<dim>> *task)
+      {
+        using L      = ShortLanes<n_bytes>;
+        using Vector = typename L::type;
+
+        TractionBatch<dim> &batch = task->batch;
+        const Vector        zero = {}, one = zero + 1.;
+        Vector              worst = one;
+        for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
+          {
+            Point<L, dim> point;
+            const Vector  here = point.reinit(*task, p);
+            worst              = (worst == one) ? here : worst;
+
+            // What F, H and F_n make of the normal.
+            Vector f[dim] = {}, h[dim] = {}, m[dim] = {};
+            for (unsigned int j = 0; j < dim; ++j)
+              {
+                const Vector N = L::load(batch.normal(j) + p);
+                for (unsigned int i = 0; i < dim; ++i)
+                  {
+                    f[i] += point.F[i][j] * N;
+                    h[i] += point.H[i][j] * N;
+                    m[i] += point.F_n[i][j] * N;
+                  }
+              }
+
+            const Matrix<L, dim> &FF = point.FF, &HF = point.HF;
+            const Vector          p1 = point.p1, p2 = point.p2, c2 = point.c2,
+                         c3 = point.c3;
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                L::store(p1 * f[i] + p2 * h[i], batch.traction(i) + p);
+                const Vector of_F = c2 * h[i];
+                const Vector of_H = c2 * f[i] + c3 * h[i];
+                for (unsigned int k = 0; k < dim; ++k)
+                  for (unsigned int l = 0; l < dim; ++l)
+                    {
+                      Vector T = of_F * FF[k][l] + of_H * HF[k][l] -
+                                 p2 * h[k] * HF[i][l];
+                      if (i == k)
+                        T += p1 * m[l];
+                      L::store(T, batch.derivative(i, k, l) + p);
+                    }
+              }
+            if (!task->with_derivatives)
+              continue;
+
+            // Derivatives have the prefix d_; that of HF is -h v.
+            Vector w[dim], v[dim] = {}, d_log_J = zero, d_trace = zero;
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                w[i] = L::load(batch.w(i) + p);
+                d_log_J += w[i] * h[i];
+                d_trace += 2. * w[i] * f[i];
+                for (unsigned int l = 0; l < dim; ++l)
+                  v[l] += w[i] * HF[i][l];
+              }
+            const Vector d_p1       = (-2. / 3.) * p1 * d_log_J;
+            const Vector d_p1_trace = d_p1 * point.trace + p1 * d_trace;
+            const Vector of_J       = point.K * point.J * point.J * d_log_J;
+            const Vector d_p2       = of_J - (1. / 3.) * d_p1_trace;
+            const Vector d_c2       = (-2. / 3.) * d_p1;
+            const Vector d_c3       = 2. * of_J + (2. / 9.) * d_p1_trace;
+
+            const Matrix<L, dim> B = point.F_n.times_transpose(point.F_n);
+            for (unsigned int i = 0, pair = 0; i < dim; ++i)
+              for (unsigned int k = i; k < dim; ++k, ++pair)
+                for (unsigned int j = 0; j < dim; ++j)
+                  {
+                    const Vector d_H  = -h[i] * v[j];
+                    const Vector of_F = d_c2 * HF[i][j] + c2 * d_H;
+                    const Vector of_H = d_c2 * FF[i][j] + c2 * w[i] * m[j] +
+                                        d_c3 * HF[i][j] + c3 * d_H;
+                    const Vector of_m = c2 * HF[i][j] * w[k];
+                    const Vector of_v = p2 * h[i] * HF[k][j] -
+                                        (c2 * FF[i][j] + c3 * HF[i][j]) * h[k];
+                    const Vector of_T = p2 * h[k] * v[j] - d_p2 * HF[k][j];
+                    for (unsigned int l = 0; l < dim; ++l)
+                      {
+                        Vector c = of_F * FF[k][l] + of_H * HF[k][l] +
+                                   of_m * m[l] + of_v * v[l] + of_T * HF[i][l];
+                        if (i == k)
+                          c += d_p1 * B[j][l];
+                        L::store(c, batch.second_derivative(pair, j, l) + p);
+                      }
+                  }
+          }
+        return other_than_one<L>(worst);
       }
     };
   } // namespace
@@ -235,9 +378,21 @@ namespace EBSMPM
   NeoHookean<dim>::respond(MaterialBatch<dim> &batch,
                            const bool          with_tangent) const
   {
-    const Task<dim> task = {
+    const Task<MaterialBatch<dim>> task = {
       batch, this->K, this->G, this->split != EnergySplit::none, with_tangent};
     this->check_determinant(run_best<Respond>(&task));
+  }
+
+
+
+  template <int dim>
+  void
+  NeoHookean<dim>::respond(TractionBatch<dim> &batch,
+                           const bool          with_second) const
+  {
+    const Task<TractionBatch<dim>> task = {
+      batch, this->K, this->G, this->split != EnergySplit::none, with_second};
+    this->check_determinant(run_best<RespondTraction>(&task));
   }
 
 
@@ -248,4 +403,10 @@ namespace EBSMPM
   NeoHookean<2>::respond(MaterialBatch<2> &, const bool) const;
   template void
   NeoHookean<3>::respond(MaterialBatch<3> &, const bool) const;
+  template void
+  NeoHookean<1>::respond(TractionBatch<1> &, const bool) const;
+  template void
+  NeoHookean<2>::respond(TractionBatch<2> &, const bool) const;
+  template void
+  NeoHookean<3>::respond(TractionBatch<3> &, const bool) const;
 } // namespace EBSMPM

@@ -13,9 +13,9 @@
 #include <ebsmpm/materials/degradation.h>
 #include <ebsmpm/materials/material.h>
 
+#include <ebsmpm/assembly/group_products.h>
 #include <ebsmpm/assembly/local_system.h>
 #include <ebsmpm/assembly/point_state.h>
-#include <ebsmpm/assembly/tangent_product.h>
 
 #include <vector>
 
@@ -34,7 +34,7 @@ namespace EBSMPM
    * @f]
    * (method, section 1). The tangent of all points is computed as a single
    * product $\mathbf G^T(\mathbf c\,\mathbf G)$ of matrices whose rows are
-   * points and directions, see TangentProduct; and the material computes
+   * points and directions, see GroupProducts; and the material computes
    * several points side by side, see MaterialBatch.
    *
    * @code
@@ -90,16 +90,8 @@ namespace EBSMPM
     const Material<dim> &material;
     const Degradation   &degradation;
 
-    MaterialBatch<dim>       batch;
-    TangentProduct<dim, dim> product;
-
-    /** The increment, a row per component, and its gradients at the points. */
-    std::vector<double> coefficients;
-    std::vector<double> gradients;
-
-    /** A row of stresses per point and direction; a row per component. */
-    std::vector<double> stresses;
-    std::vector<double> residual;
+    MaterialBatch<dim>      batch;
+    GroupProducts<dim, dim> products;
   };
 } // namespace EBSMPM
 

@@ -10,18 +10,13 @@
 #ifndef ebsmpm_assembly_nitsche_terms_h
 #define ebsmpm_assembly_nitsche_terms_h
 
-#include <ebsmpm/splines/bspline_kernel.h>
-
 #include <ebsmpm/materials/degradation.h>
 #include <ebsmpm/materials/material.h>
 
+#include <ebsmpm/assembly/group_products.h>
 #include <ebsmpm/assembly/local_system.h>
 #include <ebsmpm/assembly/point_state.h>
-#include <ebsmpm/assembly/tangent_product.h>
 
-#include <deal.II/base/tensor.h>
-
-#include <array>
 #include <vector>
 
 namespace EBSMPM
@@ -66,7 +61,7 @@ namespace EBSMPM
    * terms.compute(AssemblyTask::tangent, boundary, {}, local);
    * @endcode
    *
-   * The tangent is a TangentProduct in terms of value and gradient, with the
+   * These are GroupProducts in terms of value and gradient, with the
    * coefficients
    * @f{align*}{
    *   c_{i0k0} &= A_0\,\delta_{ik}\,\beta, &
@@ -77,6 +72,7 @@ namespace EBSMPM
    * the first two for prescribed components $i$ and the third for prescribed
    * components $k$ only.
    *
+   * The material computes several points side by side, see TractionBatch.
    * Memory is allocated by initialize() only.
    */
   template <int dim>
@@ -117,69 +113,49 @@ namespace EBSMPM
             LocalSystem<dim>                &local);
 
   private:
-    /** What is known at a boundary point. */
-    struct PointData
-    {
-      /** Values of the functions; their gradients, direction by direction. */
-      const double                   *B;
-      std::array<const double *, dim> G;
-
-      /** The deformation gradient at the start of the step, and at its end. */
-      Tensor<2, dim> F_n;
-      Tensor<2, dim> F;
-
-      Tensor<1, dim> N;
-      Tensor<1, dim> w;
-
-      double A0;
-      double g;
-
-      typename Material<dim>::Response response;
-      Tensor<1, dim>                   traction;
-    };
-
-    /** Evaluate everything at the <tt>k</tt>th point of the group. */
+    /** Compute the functions at the points, and what the material needs. */
     void
     evaluate(const BoundaryState<dim>        &boundary,
              const std::vector<EnergyBranch> &branches,
-             const LocalSystem<dim>          &local,
-             const unsigned int               k,
-             PointData                       &point);
+             const LocalSystem<dim>          &local);
 
-    /** Return $T^i_{kl}$. */
-    static Tensor<2, dim>
-    traction_derivative(const PointData &point, const unsigned int i);
-
-    /** Add to the residual. */
-    void
-    add_residual(const PointData                       &point,
-                 const std::array<bool, dim>           &constrained,
-                 const std::array<Tensor<2, dim>, dim> &T,
-                 LocalSystem<dim>                      &local) const;
-
-    /** Set the coefficients of the tangent at the <tt>k</tt>th point. */
-    void
-    set_coefficients(const AssemblyTask                     task,
-                     const unsigned int                     k,
-                     const PointData                       &point,
-                     const std::array<bool, dim>           &constrained,
-                     const std::array<Tensor<2, dim>, dim> &T);
+    /** The numbers that the residual consists of, an array over the points. */
+    double *
+    dual(const unsigned int j, const unsigned int i)
+    {
+      return duals.data() + (j * dim + i) * batch.row_length();
+    }
 
     /** The array of $c_{ijkl}$ for pair number @p pair of $i\le k$. */
-    double &
+    double *
     coefficient(const unsigned int pair,
                 const unsigned int j,
-                const unsigned int l,
-                const unsigned int point);
+                const unsigned int l)
+    {
+      return coefficients.data() +
+             ((pair * (dim + 1) + j) * (dim + 1) + l) * batch.row_length();
+    }
+
+    /** The array of ones where component @p i is prescribed, or else zeros. */
+    double *
+    prescribed(const unsigned int i)
+    {
+      return is_prescribed.data() + i * batch.row_length();
+    }
+
+    /** Combine the answers of the material for several points side by side. */
+    struct Combine;
+    friend struct Combine;
 
     const Material<dim> &material;
     const Degradation   &degradation;
     const double         beta;
 
-    TangentProduct<dim, dim + 1> product;
+    TractionBatch<dim>          batch;
+    GroupProducts<dim, dim + 1> products;
 
-    /** The coefficients, an array over the points for each. */
-    unsigned int        max_points = 0;
+    std::vector<double> is_prescribed;
+    std::vector<double> duals;
     std::vector<double> coefficients;
   };
 } // namespace EBSMPM

@@ -329,6 +329,9 @@ namespace EBSMPM
     /** Scratch: the open rows of a list. */
     std::vector<double *> row_pointers;
 
+    /** Scratch: a row as it is in the sparse matrix. */
+    std::vector<double> split_row;
+
     /** The rows of functions of other processes, and to whom they go. */
     std::vector<double>  ghost_entries;
     std::vector<Message> outgoing;

@@ -81,9 +81,11 @@ namespace EBSMPM
      * sign of the dilatation changes.
      */
     virtual Tensor<4, dim>
-    tangent_derivative(const Tensor<2, dim> &F,
-                       const double          g,
-                       const Tensor<2, dim> &W) const override;
+    tangent_derivative(
+      const Tensor<2, dim> &F,
+      const double          g,
+      const Tensor<2, dim> &W,
+      const EnergyBranch    branch = EnergyBranch::by_state) const override;
 
   private:
     /**

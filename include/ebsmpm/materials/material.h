@@ -14,6 +14,7 @@
 
 #include <ebsmpm/materials/energy_split.h>
 #include <ebsmpm/materials/material_batch.h>
+#include <ebsmpm/materials/traction_batch.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -163,6 +164,15 @@ namespace EBSMPM
     respond(MaterialBatch<dim> &batch, const bool with_tangent) const;
 
     /**
+     * Compute tractions and their derivatives at several points, and second
+     * derivatives as well if @p with_second, see TractionBatch. The default is
+     * to ask response() and tangent_derivative() about one point after the
+     * other.
+     */
+    virtual void
+    respond(TractionBatch<dim> &batch, const bool with_second) const;
+
+    /**
      * Return the derivative of the tangent in the direction @p W,
      * $\frac{\partial A_{iJkL}}{\partial F_{mN}} W_{mN}$. With
      * $\mathbf W = (\mathbf u-\bar{\mathbf u})\otimes\mathbf N$ this is what
@@ -170,9 +180,11 @@ namespace EBSMPM
      * section 3).
      */
     virtual Tensor<4, dim>
-    tangent_derivative(const Tensor<2, dim> &F,
-                       const double          g,
-                       const Tensor<2, dim> &W) const = 0;
+    tangent_derivative(
+      const Tensor<2, dim> &F,
+      const double          g,
+      const Tensor<2, dim> &W,
+      const EnergyBranch    branch = EnergyBranch::by_state) const = 0;
 
     /**
      * Raise ExcSolverFailure unless @p J is positive and finite.

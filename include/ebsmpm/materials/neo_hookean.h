@@ -86,11 +86,15 @@ namespace EBSMPM
     /** Several points side by side, see Lanes. */
     virtual void
     respond(MaterialBatch<dim> &batch, const bool with_tangent) const override;
+    virtual void
+    respond(TractionBatch<dim> &batch, const bool with_second) const override;
 
     virtual Tensor<4, dim>
-    tangent_derivative(const Tensor<2, dim> &F,
-                       const double          g,
-                       const Tensor<2, dim> &W) const override;
+    tangent_derivative(
+      const Tensor<2, dim> &F,
+      const double          g,
+      const Tensor<2, dim> &W,
+      const EnergyBranch    branch = EnergyBranch::by_state) const override;
 
   private:
     /**

@@ -1,0 +1,111 @@
+// -----------------------------------------------------------------------------
+//
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the ebsmpm authors
+//
+// This file is part of the ebsmpm library.
+//
+// -----------------------------------------------------------------------------
+
+#include <ebsmpm/assembly/dense_kernels.h>
+#include <ebsmpm/assembly/group_products.h>
+
+#include <algorithm>
+
+namespace EBSMPM
+{
+  template <int dim, int n_rows>
+  void
+  GroupProducts<dim, n_rows>::initialize(const unsigned int n_functions,
+                                         const unsigned int max_n_points)
+  {
+    const unsigned int n_points = std::max(max_n_points, 1U);
+    const unsigned int c_stride = DenseKernels::padded(dim * dim * n_functions);
+    n                           = n_functions;
+    x_stride                    = DenseKernels::padded(n);
+    X.resize_fast(n_rows * n_points * x_stride);
+    X.fill(0.);
+    cX.resize_fast(n_rows * n_points * c_stride + DenseKernels::padding);
+    cX.fill(0.);
+
+    increments_stride = n_rows * n_points;
+    coefficients.assign(dim * x_stride, 0.);
+    increments.resize(dim * increments_stride);
+    duals.resize(n_rows * n_points * dim);
+    residual.resize(dim * x_stride);
+  }
+
+
+
+  template <int dim, int n_rows>
+  void
+  GroupProducts<dim, n_rows>::evaluate(const unsigned int      n_points,
+                                       const LocalSystem<dim> &local)
+  {
+    for (unsigned int I = 0; I < n; ++I)
+      for (unsigned int a = 0; a < dim; ++a)
+        coefficients[a * x_stride + I] = local.coefficient(I)[a];
+    DenseKernels::row_products(n,
+                               dim,
+                               coefficients.data(),
+                               n_rows * n_points,
+                               X.data(),
+                               x_stride,
+                               increments.data(),
+                               increments_stride);
+  }
+
+
+
+  template <int dim, int n_rows>
+  void
+  GroupProducts<dim, n_rows>::add_residual(const unsigned int n_points,
+                                           LocalSystem<dim>  &local)
+  {
+    DenseKernels::transposed_product(n_rows * n_points,
+                                     dim,
+                                     x_stride,
+                                     duals.data(),
+                                     dim,
+                                     X.data(),
+                                     residual.data());
+    for (unsigned int I = 0; I < n; ++I)
+      for (unsigned int i = 0; i < dim; ++i)
+        local.residual[I][i] += residual[i * x_stride + I];
+  }
+
+
+
+  template <int dim, int n_rows>
+  void
+  GroupProducts<dim, n_rows>::add_tangent(const unsigned int n_points,
+                                          const double      *c,
+                                          const unsigned int ldc,
+                                          LocalSystem<dim>  &local)
+  {
+    DenseKernels::combine_rows<dim, n_rows>(n_points,
+                                            n,
+                                            c,
+                                            ldc,
+                                            X.data(),
+                                            x_stride,
+                                            cX.data(),
+                                            local.tangent_stride());
+    DenseKernels::transposed_product(n_rows * n_points,
+                                     n,
+                                     local.tangent_stride(),
+                                     X.data(),
+                                     x_stride,
+                                     cX.data(),
+                                     local.tangent(),
+                                     local.begin_tangent(),
+                                     dim * dim);
+  }
+
+
+
+  template class GroupProducts<2, 2>;
+  template class GroupProducts<2, 3>;
+  template class GroupProducts<3, 3>;
+  template class GroupProducts<3, 4>;
+} // namespace EBSMPM
