@@ -13,13 +13,17 @@
 // per cell. Sizes double; the last column is the exponent of the growth of the
 // time with the number of points.
 //
-// Two columns compare with dgemm, in this process: the time that it takes for
-// the operations that are left here, as a part of the time measured. These are
-// the products with gradients: cG, and the half of G^T(cG) that symmetry
-// leaves; on the boundary, the same with values and gradients; the gradients of
-// the increment, and the residual. "dgemm" is with the matrices of a cell,
-// which are small: the time of the same products, called one by one. "peak" is
-// with the speed for large matrices.
+// Three columns compare with dgemm, in this process: the time that it takes for
+// the products with gradients, as a part of the time measured. These are cG,
+// and the half of G^T(cG) that symmetry leaves; on the boundary, the same with
+// values and gradients; the gradients of the increment, and the residual.
+// "calls" is the time of dgemm when it is called for each of them, with the
+// matrices of a cell: the bound for an assembly that is written with BLAS-3.
+// One half of a product is as many calls as there are panels of rows, each
+// beginning at the diagonal, of the height that is fastest. "speed" is the time
+// of as many operations, at the speed that dgemm has in full products of
+// matrices of a cell, and "peak" at that for large ones; one half cannot be had
+// from it as fast as that.
 //
 // Arguments: dimension (2), points per direction (3), the number of cells per
 // direction of the smallest block (16), and the number of sizes (4).
@@ -45,6 +49,7 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <iomanip>
@@ -100,32 +105,67 @@ public:
       }
   }
 
-  /** How long an operation takes, as a mean over many products. */
-  double
-  seconds_per_flop()
+  void
+  multiply()
   {
-    const unsigned int n_repetitions = std::ceil(1e8 / n_flops);
-    return seconds(
-             [&]() {
-               for (unsigned int i = 0; i < n_repetitions; ++i)
-                 A.mTmult(C, B);
-             },
-             1) /
-           (n_repetitions * n_flops);
+    A.mTmult(C, B);
   }
 
 private:
   LAPACKFullMatrix<double> A, B, C;
-  const double             n_flops;
+
+public:
+  const double n_flops;
 };
 
 
 
-/** What is multiplied in cells, and the operations of all of them. */
+/** Some products, one after the other. */
+class MatrixProducts
+{
+public:
+  void
+  add(const unsigned int n_inner,
+      const unsigned int n_rows,
+      const unsigned int n_columns)
+  {
+    products.emplace_back(n_inner, n_rows, n_columns);
+    n_flops += products.back().n_flops;
+  }
+
+  /** How long they take, as a mean over many repetitions. */
+  double
+  time()
+  {
+    const unsigned int n_repetitions = std::ceil(1e7 / n_flops);
+    return seconds(
+             [&]() {
+               for (unsigned int i = 0; i < n_repetitions; ++i)
+                 for (MatrixProduct &product : products)
+                   product.multiply();
+             },
+             1) /
+           n_repetitions;
+  }
+
+  double n_flops = 0.;
+
+private:
+  std::vector<MatrixProduct> products;
+};
+
+
+
+/**
+ * What is multiplied in each cell, side or point: different ways to do it, the
+ * last one being a single product; which part of the operations of that is
+ * needed; and the number of times that it is done.
+ */
 struct CellProduct
 {
-  MatrixProduct product;
-  double        n_flops;
+  std::vector<MatrixProducts> ways;
+  double                      part;
+  double                      n_times;
 };
 
 
@@ -136,7 +176,9 @@ class Report
 public:
   Report()
     : out(std::cout, Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-  {}
+  {
+    large_product.add(384, 384, 384);
+  }
 
   /** Measure something in turn with dgemm: machines change their speed. */
   template <typename Function>
@@ -146,26 +188,38 @@ public:
           std::vector<CellProduct> products,
           const Function          &function)
   {
-    const double        infinity = std::numeric_limits<double>::max();
-    double              time = infinity, large_time = infinity;
-    std::vector<double> times(products.size(), infinity);
+    const double infinity = std::numeric_limits<double>::max();
+    double       time = infinity, large_time = infinity;
+
+    std::vector<std::vector<double>> times;
+    for (const CellProduct &product : products)
+      times.emplace_back(product.ways.size(), infinity);
     for (unsigned int i = 0; i < 12; ++i)
       {
         time       = std::min(time, seconds(function, 1));
-        large_time = std::min(large_time, large_product.seconds_per_flop());
+        large_time = std::min(large_time, large_product.time());
         for (unsigned int k = 0; k < products.size(); ++k)
-          times[k] = std::min(times[k], products[k].product.seconds_per_flop());
+          for (unsigned int w = 0; w < products[k].ways.size(); ++w)
+            times[k][w] = std::min(times[k][w], products[k].ways[w].time());
       }
 
-    const double all_time =
-      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) * time;
-    double of_dgemm = 0., of_peak = 0.;
+    double of_calls = 0., of_speed = 0., of_peak = 0.;
     for (unsigned int k = 0; k < products.size(); ++k)
       {
-        of_dgemm += products[k].n_flops * times[k] / all_time;
-        of_peak += products[k].n_flops * large_time / all_time;
+        const double n_times = products[k].n_times;
+        const double n_parts = products[k].part * n_times;
+        of_calls +=
+          n_times * *std::min_element(times[k].begin(), times[k].end());
+        of_speed += n_parts * times[k].back();
+        of_peak += n_parts * products[k].ways.back().n_flops /
+                   large_product.n_flops * large_time;
       }
-    print(what, n_points, time, {{of_dgemm, of_peak}});
+    const double all_time =
+      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) * time;
+    print(what,
+          n_points,
+          time,
+          {{of_calls / all_time, of_speed / all_time, of_peak / all_time}});
   }
 
   /** Print a line; fractions of dgemm that are zero are unknown. */
@@ -173,7 +227,7 @@ public:
   print(const std::string          &what,
         const double                n_points,
         const double                time,
-        const std::array<double, 2> fractions = {{0., 0.}})
+        const std::array<double, 3> fractions = {{0., 0., 0.}})
   {
     out << "  " << std::left << std::setw(24) << what << std::right
         << std::setprecision(3) << std::setw(10) << 1e3 * time << " ms"
@@ -193,7 +247,7 @@ public:
   }
 
 private:
-  MatrixProduct                                    large_product{384, 384, 384};
+  MatrixProducts                                   large_product;
   std::map<std::string, std::pair<double, double>> previous;
 
 public:
@@ -313,27 +367,47 @@ run(const unsigned int n_cells,
     Utilities::MPI::sum(double(body.boundary_points.n_points()),
                         MPI_COMM_WORLD),
     Utilities::pow(n_per_direction, dim - 1)};
-  const unsigned int n_functions       = Utilities::pow(3, dim);
-  const auto         symmetric_product = [&](const Points      &points,
+  const unsigned int n_functions    = Utilities::pow(3, dim);
+  const auto         single_product = [](const double       n_times,
+                                 const unsigned int n_inner,
+                                 const unsigned int n_rows,
+                                 const unsigned int n_columns) {
+    CellProduct result = {{{}}, 1., n_times};
+    result.ways[0].add(n_inner, n_rows, n_columns);
+    return result;
+  };
+  const auto symmetric_product = [&](const Points      &points,
                                      const unsigned int n_rows,
                                      const unsigned int n_components) {
     const unsigned int size = n_components * n_functions;
-    return CellProduct{{n_rows * points.in_cell, size, n_functions},
-                       points.all * n_rows * size * (size + 1.)};
+    CellProduct result = {{}, 0.5 + 0.5 / size, points.all / points.in_cell};
+    for (unsigned int height = 1; height <= n_functions; ++height)
+      {
+        result.ways.emplace_back();
+        for (unsigned int i = 0; i < n_functions; i += height)
+          result.ways.back().add(n_rows * points.in_cell,
+                                 n_components * n_components *
+                                   (n_functions - i),
+                                 std::min(height, n_functions - i));
+      }
+    return result;
   };
   const auto combination = [&](const Points      &points,
                                const unsigned int n_rows,
                                const unsigned int n_results) {
-    return CellProduct{{n_rows, n_results, n_functions},
-                       points.all * 2. * n_rows * n_results * n_functions};
+    return single_product(points.all, n_rows, n_results, n_functions);
   };
   const auto gradients = [&](const Points &points) {
-    return CellProduct{{n_functions, dim, dim * points.in_cell},
-                       points.all * 2. * n_functions * dim * dim};
+    return single_product(points.all / points.in_cell,
+                          n_functions,
+                          dim,
+                          dim * points.in_cell);
   };
   const auto residuals = [&](const Points &points) {
-    return CellProduct{{dim * points.in_cell, dim, n_functions},
-                       points.all * 2. * dim * dim * n_functions};
+    return single_product(points.all / points.in_cell,
+                          dim * points.in_cell,
+                          dim,
+                          n_functions);
   };
 
   LA::FieldVector x = u_system.make_vector(), residual = x, update = x;
@@ -444,7 +518,8 @@ main(int argc, char *argv[])
 
   Report table;
   table.out << "  what                          time"
-            << "         points     dgemm       peak   growth" << std::endl;
+            << "         points     calls      speed       peak   growth"
+            << std::endl;
   for (unsigned int size = 0, cells = n_cells; size < n_sizes;
        ++size, cells *= 2)
     if (dim == 2)
