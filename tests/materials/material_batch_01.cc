@@ -11,8 +11,9 @@
 // response() and tangent_derivative() say about one after the other, for
 // stresses and for tractions, in all dimensions, for all materials and
 // branches, for all instruction sets of the machine, for numbers of points that
-// fill registers and that do not, near the undeformed state and far away. A point with a NaN is noticed among many, and one that is turned
-// inside out, which only linear elasticity does not mind.
+// fill registers and that do not, near the undeformed state and far away. A
+// point with a NaN is noticed among many, and one that is turned inside out,
+// which only linear elasticity does not mind.
 
 #include <ebsmpm/base/exceptions.h>
 
