@@ -147,11 +147,6 @@ test_derivatives(const Material<dim> &material)
     material.stress(F, g, result);
     return result;
   };
-  const auto tangent = [&](const Tensor<2, dim> &F) {
-    Response response;
-    material.response(F, g, response);
-    return response.A;
-  };
 
   for (const Tensor<2, dim> &F : deformation_gradients<dim>())
     {
@@ -169,9 +164,19 @@ test_derivatives(const Material<dim> &material)
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
           W[i][j] = std::cos(2. * i + 3. * j);
-      DA.compare(material.tangent_derivative(F, g, W),
-                 difference<dim, Tensor<4, dim>>(tangent, F, W),
-                 scale);
+      for (const EnergyBranch branch : {EnergyBranch::by_state,
+                                        EnergyBranch::expanded,
+                                        EnergyBranch::compressed})
+        {
+          const auto tangent = [&](const Tensor<2, dim> &F) {
+            Response response;
+            material.response(F, g, response, branch);
+            return response.A;
+          };
+          DA.compare(material.tangent_derivative(F, g, W, branch),
+                     difference<dim, Tensor<4, dim>>(tangent, F, W),
+                     scale);
+        }
 
       for (unsigned int k = 0; k < dim; ++k)
         for (unsigned int l = 0; l < dim; ++l)
