@@ -12,8 +12,6 @@
 #include <ebsmpm/assembly/elastic_terms.h>
 #include <ebsmpm/assembly/point_values.h>
 
-#include <algorithm>
-
 namespace EBSMPM
 {
   template <int dim>
@@ -30,10 +28,8 @@ namespace EBSMPM
   ElasticTerms<dim>::initialize(const unsigned int n_functions,
                                 const unsigned int max_n_points)
   {
-    const unsigned int n_points = std::max(max_n_points, 1U);
-    batch.initialize(n_points);
-
-    products.initialize(n_functions, n_points);
+    batch.initialize(max_n_points);
+    products.initialize(n_functions, max_n_points);
   }
 
 
@@ -77,14 +73,9 @@ namespace EBSMPM
     batch.reinit(n_points);
     for (unsigned int p = 0; p < n_points; ++p)
       {
-        std::array<Tensor<1, dim>, dim> gradient;
-        for (unsigned int a = 0; a < dim; ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            gradient[a][d] = products.increment(p, d, a);
-
         const unsigned int q = local.point(p);
         batch.set(p,
-                  deformation<dim>(gradient, state.F[q]),
+                  deformation<dim>(products.gradient(p), state.F[q]),
                   state.F[q],
                   state.volume[q],
                   degradation.value(state.damage[q]),

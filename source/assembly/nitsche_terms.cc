@@ -151,18 +151,15 @@ namespace EBSMPM
     batch.reinit(n_points);
     for (unsigned int p = 0; p < n_points; ++p)
       {
-        const unsigned int              q = local.point(p);
-        Tensor<1, dim>                  value;
-        std::array<Tensor<1, dim>, dim> gradient;
+        const unsigned int q = local.point(p);
+        Tensor<1, dim>     value;
         for (unsigned int a = 0; a < dim; ++a)
           {
-            value[a] = products.increment(p, 0, a);
-            for (unsigned int d = 0; d < dim; ++d)
-              gradient[a][d] = products.increment(p, 1 + d, a);
+            value[a]         = products.increment(p, 0, a);
             prescribed(a)[p] = boundary.constrained[q][a] ? 1. : 0.;
           }
         batch.set(p,
-                  deformation<dim>(gradient, boundary.F[q]),
+                  deformation<dim>(products.gradient(p), boundary.F[q]),
                   boundary.F[q],
                   boundary.area[q],
                   degradation.value(boundary.damage[q]),

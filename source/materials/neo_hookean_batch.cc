@@ -201,15 +201,132 @@ namespace EBSMPM
 
 
 
-    /** A number that is not one, if there is any, or else one. */
-    template <typename L>
-    EBSMPM_IN_EACH_TARGET double
-    other_than_one(const typename L::type numbers)
+    /** What MaterialBatch asks, from number @p p on. */
+    template <typename L, int dim>
+    EBSMPM_IN_EACH_TARGET void
+    answer(const Point<L, dim> &point,
+           const unsigned int   p,
+           const bool           with_derivatives,
+           MaterialBatch<dim>  &batch)
     {
-      for (unsigned int l = 0; l < L::n; ++l)
-        if (!(numbers[l] == 1.))
-          return numbers[l];
-      return 1.;
+      using Vector = typename L::type;
+
+      const Matrix<L, dim> &FF = point.FF, &HF = point.HF;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          L::store(point.p1 * FF[i][j] + point.p2 * HF[i][j],
+                   batch.stress(i, j) + p);
+      if (!with_derivatives)
+        return;
+
+      const Matrix<L, dim> B = point.F_n.times_transpose(point.F_n);
+      for (unsigned int i = 0, pair = 0; i < dim; ++i)
+        for (unsigned int k = i; k < dim; ++k, ++pair)
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              const Vector of_F = point.c2 * HF[i][j];
+              const Vector of_H = point.c2 * FF[i][j] + point.c3 * HF[i][j];
+              const Vector of_T = point.p2 * HF[k][j];
+              for (unsigned int l = 0; l < dim; ++l)
+                {
+                  Vector c =
+                    of_F * FF[k][l] + of_H * HF[k][l] - of_T * HF[i][l];
+                  if (i == k)
+                    c += point.p1 * B[j][l];
+                  L::store(c, batch.tangent(pair, j, l) + p);
+                }
+            }
+    }
+
+
+
+    /**
+     * What TractionBatch asks. In the direction $\mathbf w\otimes\mathbf N$,
+     * the derivative of $\mathbf H$ is the dyad of $-\mathbf H\mathbf N$ and
+     * $\mathbf H^T\mathbf w$.
+     */
+    template <typename L, int dim>
+    EBSMPM_IN_EACH_TARGET void
+    answer(const Point<L, dim> &point,
+           const unsigned int   p,
+           const bool           with_derivatives,
+           TractionBatch<dim>  &batch)
+    {
+      using Vector      = typename L::type;
+      const Vector zero = {};
+
+      // What F, H and F_n make of the normal.
+      Vector f[dim] = {}, h[dim] = {}, m[dim] = {};
+      for (unsigned int j = 0; j < dim; ++j)
+        {
+          const Vector N = L::load(batch.normal(j) + p);
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              f[i] += point.F[i][j] * N;
+              h[i] += point.H[i][j] * N;
+              m[i] += point.F_n[i][j] * N;
+            }
+        }
+
+      const Matrix<L, dim> &FF = point.FF, &HF = point.HF;
+      const Vector p1 = point.p1, p2 = point.p2, c2 = point.c2, c3 = point.c3;
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          L::store(p1 * f[i] + p2 * h[i], batch.traction(i) + p);
+          const Vector of_F = c2 * h[i];
+          const Vector of_H = c2 * f[i] + c3 * h[i];
+          for (unsigned int k = 0; k < dim; ++k)
+            for (unsigned int l = 0; l < dim; ++l)
+              {
+                Vector T =
+                  of_F * FF[k][l] + of_H * HF[k][l] - p2 * h[k] * HF[i][l];
+                if (i == k)
+                  T += p1 * m[l];
+                L::store(T, batch.derivative(i, k, l) + p);
+              }
+        }
+      if (!with_derivatives)
+        return;
+
+      // Derivatives have the prefix d_; that of HF is -h v.
+      Vector w[dim], v[dim] = {}, d_log_J = zero, d_trace = zero;
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          w[i] = L::load(batch.w(i) + p);
+          d_log_J += w[i] * h[i];
+          d_trace += 2. * w[i] * f[i];
+          for (unsigned int l = 0; l < dim; ++l)
+            v[l] += w[i] * HF[i][l];
+        }
+      const Vector d_p1       = (-2. / 3.) * p1 * d_log_J;
+      const Vector d_p1_trace = d_p1 * point.trace + p1 * d_trace;
+      const Vector of_J       = point.K * point.J * point.J * d_log_J;
+      const Vector d_p2       = of_J - (1. / 3.) * d_p1_trace;
+      const Vector d_c2       = (-2. / 3.) * d_p1;
+      const Vector d_c3       = 2. * of_J + (2. / 9.) * d_p1_trace;
+
+      const Matrix<L, dim> B = point.F_n.times_transpose(point.F_n);
+      for (unsigned int i = 0, pair = 0; i < dim; ++i)
+        for (unsigned int k = i; k < dim; ++k, ++pair)
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              const Vector d_H  = -h[i] * v[j];
+              const Vector of_F = d_c2 * HF[i][j] + c2 * d_H;
+              const Vector of_H =
+                d_c2 * FF[i][j] + c2 * w[i] * m[j] + d_c3 * HF[i][j] + c3 * d_H;
+              const Vector of_m = c2 * HF[i][j] * w[k];
+              const Vector of_v =
+                p2 * h[i] * HF[k][j] - (c2 * FF[i][j] + c3 * HF[i][j]) * h[k];
+              const Vector of_T = p2 * h[k] * v[j] - d_p2 * HF[k][j];
+              for (unsigned int l = 0; l < dim; ++l)
+                {
+                  Vector c = of_F * FF[k][l] + of_H * HF[k][l] + of_m * m[l] +
+                             of_v * v[l] + of_T * HF[i][l];
+                  if (i == k)
+                    c += d_p1 * B[j][l];
+                  L::store(c, batch.second_derivative(pair, j, l) + p);
+                }
+            }
     }
 
 
@@ -220,153 +337,26 @@ namespace EBSMPM
      */
     struct Respond
     {
-      template <unsigned int n_bytes, int dim>
+      template <unsigned int n_bytes, template <int> class Batch, int dim>
       static EBSMPM_IN_EACH_TARGET double
-      run(const Task<MaterialBatch<dim>> *task)
+      run(const Task<Batch<dim>> *task)
       {
         using L      = ShortLanes<n_bytes>;
         using Vector = typename L::type;
 
-        MaterialBatch<dim> &batch = task->batch;
-        const Vector        zero = {}, one = zero + 1.;
-        Vector              worst = one;
-        for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
+        const Vector zero = {}, one = zero + 1.;
+        Vector       worst = one;
+        for (unsigned int p = 0; p < task->batch.n_padded_points(); p += L::n)
           {
             Point<L, dim> point;
             const Vector  here = point.reinit(*task, p);
             worst              = (worst == one) ? here : worst;
-
-            const Matrix<L, dim> &FF = point.FF, &HF = point.HF;
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                L::store(point.p1 * FF[i][j] + point.p2 * HF[i][j],
-                         batch.stress(i, j) + p);
-            if (!task->with_derivatives)
-              continue;
-
-            const Matrix<L, dim> B = point.F_n.times_transpose(point.F_n);
-            for (unsigned int i = 0, pair = 0; i < dim; ++i)
-              for (unsigned int k = i; k < dim; ++k, ++pair)
-                for (unsigned int j = 0; j < dim; ++j)
-                  {
-                    const Vector of_F = point.c2 * HF[i][j];
-                    const Vector of_H =
-                      point.c2 * FF[i][j] + point.c3 * HF[i][j];
-                    const Vector of_T = point.p2 * HF[k][j];
-                    for (unsigned int l = 0; l < dim; ++l)
-                      {
-                        Vector c =
-                          of_F * FF[k][l] + of_H * HF[k][l] - of_T * HF[i][l];
-                        if (i == k)
-                          c += point.p1 * B[j][l];
-                        L::store(c, batch.tangent(pair, j, l) + p);
-                      }
-                  }
+            answer(point, p, task->with_derivatives, task->batch);
           }
-        return other_than_one<L>(worst);
-      }
-    };
-
-
-
-    /**
-     * The same for tractions. In the direction $\mathbf w\otimes\mathbf N$, the
-     * derivative of $\mathbf H$ is the dyad of $-\mathbf H\mathbf N$ and
-     * $\mathbf H^T\mathbf w$.
-     */
-    struct RespondTraction
-    {
-      template <unsigned int n_bytes, int dim>
-      static EBSMPM_IN_EACH_TARGET double
-      run(const Task<TractionBatch<dim>> *task)
-      {
-        using L      = ShortLanes<n_bytes>;
-        using Vector = typename L::type;
-
-        TractionBatch<dim> &batch = task->batch;
-        const Vector        zero = {}, one = zero + 1.;
-        Vector              worst = one;
-        for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
-          {
-            Point<L, dim> point;
-            const Vector  here = point.reinit(*task, p);
-            worst              = (worst == one) ? here : worst;
-
-            // What F, H and F_n make of the normal.
-            Vector f[dim] = {}, h[dim] = {}, m[dim] = {};
-            for (unsigned int j = 0; j < dim; ++j)
-              {
-                const Vector N = L::load(batch.normal(j) + p);
-                for (unsigned int i = 0; i < dim; ++i)
-                  {
-                    f[i] += point.F[i][j] * N;
-                    h[i] += point.H[i][j] * N;
-                    m[i] += point.F_n[i][j] * N;
-                  }
-              }
-
-            const Matrix<L, dim> &FF = point.FF, &HF = point.HF;
-            const Vector          p1 = point.p1, p2 = point.p2, c2 = point.c2,
-                         c3 = point.c3;
-            for (unsigned int i = 0; i < dim; ++i)
-              {
-                L::store(p1 * f[i] + p2 * h[i], batch.traction(i) + p);
-                const Vector of_F = c2 * h[i];
-                const Vector of_H = c2 * f[i] + c3 * h[i];
-                for (unsigned int k = 0; k < dim; ++k)
-                  for (unsigned int l = 0; l < dim; ++l)
-                    {
-                      Vector T = of_F * FF[k][l] + of_H * HF[k][l] -
-                                 p2 * h[k] * HF[i][l];
-                      if (i == k)
-                        T += p1 * m[l];
-                      L::store(T, batch.derivative(i, k, l) + p);
-                    }
-              }
-            if (!task->with_derivatives)
-              continue;
-
-            // Derivatives have the prefix d_; that of HF is -h v.
-            Vector w[dim], v[dim] = {}, d_log_J = zero, d_trace = zero;
-            for (unsigned int i = 0; i < dim; ++i)
-              {
-                w[i] = L::load(batch.w(i) + p);
-                d_log_J += w[i] * h[i];
-                d_trace += 2. * w[i] * f[i];
-                for (unsigned int l = 0; l < dim; ++l)
-                  v[l] += w[i] * HF[i][l];
-              }
-            const Vector d_p1       = (-2. / 3.) * p1 * d_log_J;
-            const Vector d_p1_trace = d_p1 * point.trace + p1 * d_trace;
-            const Vector of_J       = point.K * point.J * point.J * d_log_J;
-            const Vector d_p2       = of_J - (1. / 3.) * d_p1_trace;
-            const Vector d_c2       = (-2. / 3.) * d_p1;
-            const Vector d_c3       = 2. * of_J + (2. / 9.) * d_p1_trace;
-
-            const Matrix<L, dim> B = point.F_n.times_transpose(point.F_n);
-            for (unsigned int i = 0, pair = 0; i < dim; ++i)
-              for (unsigned int k = i; k < dim; ++k, ++pair)
-                for (unsigned int j = 0; j < dim; ++j)
-                  {
-                    const Vector d_H  = -h[i] * v[j];
-                    const Vector of_F = d_c2 * HF[i][j] + c2 * d_H;
-                    const Vector of_H = d_c2 * FF[i][j] + c2 * w[i] * m[j] +
-                                        d_c3 * HF[i][j] + c3 * d_H;
-                    const Vector of_m = c2 * HF[i][j] * w[k];
-                    const Vector of_v = p2 * h[i] * HF[k][j] -
-                                        (c2 * FF[i][j] + c3 * HF[i][j]) * h[k];
-                    const Vector of_T = p2 * h[k] * v[j] - d_p2 * HF[k][j];
-                    for (unsigned int l = 0; l < dim; ++l)
-                      {
-                        Vector c = of_F * FF[k][l] + of_H * HF[k][l] +
-                                   of_m * m[l] + of_v * v[l] + of_T * HF[i][l];
-                        if (i == k)
-                          c += d_p1 * B[j][l];
-                        L::store(c, batch.second_derivative(pair, j, l) + p);
-                      }
-                  }
-          }
-        return other_than_one<L>(worst);
+        for (unsigned int l = 0; l < L::n; ++l)
+          if (!(worst[l] == 1.))
+            return worst[l];
+        return 1.;
       }
     };
   } // namespace
@@ -392,7 +382,7 @@ namespace EBSMPM
   {
     const Task<TractionBatch<dim>> task = {
       batch, this->K, this->G, this->split != EnergySplit::none, with_second};
-    this->check_determinant(run_best<RespondTraction>(&task));
+    this->check_determinant(run_best<Respond>(&task));
   }
 
 

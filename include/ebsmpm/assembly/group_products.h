@@ -15,7 +15,9 @@
 #include <ebsmpm/assembly/local_system.h>
 
 #include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/tensor.h>
 
+#include <array>
 #include <vector>
 
 namespace EBSMPM
@@ -87,7 +89,21 @@ namespace EBSMPM
               const unsigned int j,
               const unsigned int a) const
     {
-      return increments[(p * n_rows + j) + a * increments_stride];
+      return increments[a * increments_stride + p * n_rows + j];
+    }
+
+    /**
+     * The gradients of all components, the last functionals of point @p p,
+     * after evaluate().
+     */
+    std::array<Tensor<1, dim>, dim>
+    gradient(const unsigned int p) const
+    {
+      std::array<Tensor<1, dim>, dim> result;
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          result[a][d] = increment(p, n_rows - dim + d, a);
+      return result;
     }
 
     /** The number $s_{ij}(p)$, to be filled. */

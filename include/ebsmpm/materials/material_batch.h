@@ -42,19 +42,10 @@ namespace EBSMPM
   public:
     using PointBatch<dim>::n_pairs;
 
-    /** Allocate memory for at most @p max_n_points points. */
-    void
-    initialize(const unsigned int max_n_points)
-    {
-      this->allocate(n_rows, max_n_points);
-    }
-
-    /** Begin with @p n_points points. */
-    void
-    reinit(const unsigned int n_points)
-    {
-      this->begin(n_points);
-    }
+    /** Constructor. */
+    MaterialBatch()
+      : PointBatch<dim>(n_rows)
+    {}
 
     /** The array of $S_{ij}$. */
     double *

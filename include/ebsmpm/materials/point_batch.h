@@ -37,6 +37,29 @@ namespace EBSMPM
     /** Number of pairs $i\le k$ of components. */
     static constexpr unsigned int n_pairs = dim * (dim + 1) / 2;
 
+    /** Allocate memory for at most @p max_n_points points. */
+    void
+    initialize(const unsigned int max_n_points)
+    {
+      stride = padded(max_n_points);
+      data.assign(n_rows * stride, 0.);
+      n = 0;
+    }
+
+    /** Begin with @p n_points points, and fill the padding. */
+    void
+    reinit(const unsigned int n_points)
+    {
+      n = n_points;
+      for (unsigned int p = n; p < n_padded_points(); ++p)
+        set(p,
+            unit_symmetric_tensor<dim>(),
+            unit_symmetric_tensor<dim>(),
+            0.,
+            1.,
+            EnergyBranch::by_state);
+    }
+
     /**
      * Give a point its data.
      *
@@ -123,28 +146,10 @@ namespace EBSMPM
     /** Number of arrays of what is given; those of derived classes follow. */
     static constexpr unsigned int n_given_rows = 2 * dim * dim + 3;
 
-    /** Allocate memory for @p n_rows arrays of @p max_n_points points. */
-    void
-    allocate(const unsigned int n_rows, const unsigned int max_n_points)
-    {
-      stride = padded(max_n_points);
-      data.assign(n_rows * stride, 0.);
-      n = 0;
-    }
-
-    /** Begin with @p n_points points, and fill the padding. */
-    void
-    begin(const unsigned int n_points)
-    {
-      n = n_points;
-      for (unsigned int p = n; p < n_padded_points(); ++p)
-        set(p,
-            unit_symmetric_tensor<dim>(),
-            unit_symmetric_tensor<dim>(),
-            0.,
-            1.,
-            EnergyBranch::by_state);
-    }
+    /** Constructor, with the number of all arrays. */
+    explicit PointBatch(const unsigned int n_rows)
+      : n_rows(n_rows)
+    {}
 
     /** An array. */
     double *
@@ -167,6 +172,7 @@ namespace EBSMPM
              max_n_short_lanes;
     }
 
+    unsigned int        n_rows;
     unsigned int        stride = 0;
     unsigned int        n      = 0;
     std::vector<double> data;

@@ -51,21 +51,10 @@ namespace EBSMPM
   public:
     using PointBatch<dim>::n_pairs;
 
-    /** Allocate memory for at most @p max_n_points points. */
-    void
-    initialize(const unsigned int max_n_points)
-    {
-      this->allocate(n_rows, max_n_points);
-    }
-
-    /** Begin with @p n_points points. */
-    void
-    reinit(const unsigned int n_points)
-    {
-      this->begin(n_points);
-      for (unsigned int p = n_points; p < this->n_padded_points(); ++p)
-        set_vectors(p, Tensor<1, dim>(), Tensor<1, dim>());
-    }
+    /** Constructor. */
+    TractionBatch()
+      : PointBatch<dim>(n_rows)
+    {}
 
     /** Give a point its normal @p N and the vector @p w. */
     void
