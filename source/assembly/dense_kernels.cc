@@ -26,10 +26,10 @@ namespace EBSMPM
        * along panels, columns of the width of a tile, so that these columns of
        * B, and all of A, stay in the first cache; and in a panel downwards from
        * tile to tile, numbers of C that stay in registers while the inner
-       * dimension is summed up. Tiles are as large as there are registers for
-       * them: sums that are too few do not hide the latency of an addition. But
-       * with wide tiles, much is computed in vain before the diagonal of a
-       * symmetric matrix; where registers are long, two of them are enough.
+       * dimension is summed up. Tiles have as many sums as there are registers
+       * for them: sums that are too few do not hide the latency of an addition.
+       * But with wide tiles, much is computed in vain before the diagonal of a
+       * symmetric matrix; where registers are long, one of them is enough.
        */
       template <unsigned int n_bytes>
       struct TransposedProductTiles
@@ -38,9 +38,9 @@ namespace EBSMPM
 
         /** Number of registers for the sums, the height beyond which tiles do
          * not become faster, and the width in registers. */
-        static constexpr unsigned int n_registers   = (n_bytes == 64 ? 18 : 12);
+        static constexpr unsigned int n_registers   = 12;
         static constexpr unsigned int max_height    = 9;
-        static constexpr unsigned int max_n_vectors = (n_bytes == 64 ? 2 : 4);
+        static constexpr unsigned int max_n_vectors = (n_bytes == 64 ? 1 : 4);
 
         const unsigned int n_inner;
         const unsigned int n_rows;
@@ -181,7 +181,8 @@ namespace EBSMPM
 
       /**
        * See DenseKernels::combine_rows(). Registers of four numbers suffice,
-       * since blocks have four or nine.
+       * since blocks have four or nine. The ninth numbers of several blocks are
+       * computed side by side.
        */
       template <int dim, int n_rows>
       struct CombineRows
@@ -192,29 +193,102 @@ namespace EBSMPM
          * The coefficients of the row $(p,j)$ for row $(p,l)$, a block for each
          * pair of them, for some points.
          */
-        template <unsigned int n_lanes>
         struct Coefficients
         {
-          static constexpr unsigned int n_points = 4;
-          static constexpr unsigned int size =
-            (n_both + n_lanes - 1) / n_lanes * n_lanes;
+          static constexpr unsigned int n_points = max_n_short_lanes;
 
-          double blocks[n_points][n_rows][n_rows][size] = {};
+          double blocks[n_points][n_rows][n_rows][n_both];
 
+          template <unsigned int n_bytes>
           EBSMPM_IN_EACH_TARGET void
-          fill(const unsigned int n, const double *c, const unsigned int ldc)
+          fill(const double *c, const unsigned int ldc)
           {
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int k = i; k < dim; ++k)
-                for (unsigned int j = 0; j < n_rows; ++j)
-                  for (unsigned int l = 0; l < n_rows; ++l, c += ldc)
-                    for (unsigned int p = 0; p < n; ++p)
+            for (unsigned int j = 0; j < n_rows; ++j)
+              for (unsigned int l = 0; l < n_rows; ++l)
+                {
+                  const double *of_pair[n_both];
+                  for (unsigned int i = 0, b = 0; i < dim; ++i)
+                    for (unsigned int k = i; k < dim; ++k, ++b)
                       {
-                        blocks[p][j][l][i * dim + k] = c[p];
-                        blocks[p][l][j][k * dim + i] = c[p];
+                        of_pair[k * dim + i] =
+                          c + ((b * n_rows + l) * n_rows + j) * ldc;
+                        of_pair[i * dim + k] =
+                          c + ((b * n_rows + j) * n_rows + l) * ldc;
                       }
+                  fill_pair<n_bytes>(of_pair, j, l);
+                }
+          }
+
+          /** The blocks of a pair of rows, from arrays over the points. */
+          template <unsigned int n_bytes>
+          EBSMPM_IN_EACH_TARGET void
+          fill_pair(const double *const *of_pair,
+                    const unsigned int   j,
+                    const unsigned int   l)
+          {
+            using L = ShortLanes<n_bytes>;
+            for (unsigned int p = 0; p < n_points; p += L::n)
+              {
+                unsigned int b = 0;
+                for (; b + L::n <= n_both; b += L::n)
+                  {
+                    typename L::type v[L::n];
+                    for (unsigned int w = 0; w < L::n; ++w)
+                      v[w] = L::load(of_pair[b + w] + p);
+                    L::transpose(v);
+                    for (unsigned int w = 0; w < L::n; ++w)
+                      L::store(v[w], blocks[p + w][j][l] + b);
+                  }
+                for (; b < n_both; ++b)
+                  for (unsigned int w = 0; w < L::n; ++w)
+                    blocks[p + w][j][l][b] = of_pair[b][p + w];
+              }
           }
         };
+
+        /** Combine the rows of a point for one row of B. */
+        template <unsigned int n_bytes>
+        static EBSMPM_IN_EACH_TARGET void
+        combine(const double (&blocks)[n_rows][n_both],
+                const unsigned int n,
+                const double      *G,
+                const unsigned int ldg,
+                double            *B)
+        {
+          using L                          = ShortLanes<n_bytes>;
+          using Vector                     = typename L::type;
+          constexpr unsigned int n_vectors = n_both / L::n;
+          constexpr unsigned int last      = n_both - 1;
+
+          Vector c[n_rows][n_vectors];
+          for (unsigned int l = 0; l < n_rows; ++l)
+            for (unsigned int v = 0; v < n_vectors; ++v)
+              c[l][v] = L::load(blocks[l] + v * L::n);
+
+          for (unsigned int begin = 0; begin < n; begin += L::n)
+            {
+              // Some are computed twice if there are not as many left.
+              const unsigned int J = std::min(begin, n - L::n);
+              const double      *g = G + J;
+              double            *b = B + J * n_both;
+              for (unsigned int w = 0; w < L::n; ++w)
+                for (unsigned int v = 0; v < n_vectors; ++v)
+                  {
+                    Vector sum = c[0][v] * g[w];
+                    for (unsigned int l = 1; l < n_rows; ++l)
+                      sum += c[l][v] * g[l * ldg + w];
+                    L::store(sum, b + w * n_both + v * L::n);
+                  }
+              if constexpr (n_both > n_vectors * L::n)
+                {
+                  Vector sums = blocks[0][last] * L::load(g);
+                  for (unsigned int l = 1; l < n_rows; ++l)
+                    sums += blocks[l][last] * L::load(g + l * ldg);
+                  for (unsigned int w = 0; w < L::n; ++w)
+                    b[w * n_both + last] = sums[w];
+                }
+            }
+        }
 
         template <unsigned int n_bytes>
         static EBSMPM_IN_EACH_TARGET void
@@ -227,40 +301,16 @@ namespace EBSMPM
             double            *B,
             const unsigned int ldb)
         {
-          using L                          = ShortLanes<n_bytes>;
-          using Vector                     = typename L::type;
-          using Some                       = Coefficients<L::n>;
-          constexpr unsigned int n_vectors = Some::size / L::n;
-
-          // Reading vectors of what was written number by number just before
-          // would have to wait for it, hence several points.
-          Some of_some;
+          Coefficients of_some;
           for (unsigned int begin = 0; begin < n_points;
-               begin += Some::n_points)
+               begin += Coefficients::n_points)
             {
+              of_some.template fill<n_bytes>(c + begin, ldc);
               const unsigned int n_here =
-                std::min(n_points - begin, Some::n_points);
-              of_some.fill(n_here, c + begin, ldc);
+                std::min(n_points - begin, Coefficients::n_points);
               for (unsigned int p = 0; p < n_here; ++p, G += n_rows * ldg)
                 for (unsigned int j = 0; j < n_rows; ++j, B += ldb)
-                  {
-                    Vector c_j[n_rows][n_vectors];
-                    for (unsigned int l = 0; l < n_rows; ++l)
-                      for (unsigned int v = 0; v < n_vectors; ++v)
-                        c_j[l][v] = L::load(of_some.blocks[p][j][l] + v * L::n);
-
-                    // The last vector reaches into the next block, which is
-                    // yet to come, or into the padding, with zeros.
-                    double *b = B;
-                    for (unsigned int J = 0; J < n; ++J, b += n_both)
-                      for (unsigned int v = 0; v < n_vectors; ++v)
-                        {
-                          Vector sum = c_j[0][v] * G[J];
-                          for (unsigned int l = 1; l < n_rows; ++l)
-                            sum += c_j[l][v] * G[l * ldg + J];
-                          L::store(sum, b + v * L::n);
-                        }
-                  }
+                  combine<n_bytes>(of_some.blocks[p][j], n, G, ldg, B);
             }
         }
       };
@@ -341,6 +391,8 @@ namespace EBSMPM
                  double            *B,
                  const unsigned int ldb)
     {
+      Assert(n >= max_n_short_lanes,
+             ExcMessage("Rows are shorter than a vector."));
       run_best<CombineRows<dim, n_rows>>(n_points, n, c, ldc, G, ldg, B, ldb);
     }
 

@@ -25,7 +25,7 @@ namespace EBSMPM
     x_stride                    = DenseKernels::padded(n);
     X.resize_fast(n_rows * n_points * x_stride);
     X.fill(0.);
-    cX.resize_fast(n_rows * n_points * c_stride + DenseKernels::padding);
+    cX.resize_fast(n_rows * n_points * c_stride);
     cX.fill(0.);
 
     increments_stride = n_rows * n_points;

@@ -281,8 +281,7 @@ namespace EBSMPM
     for (unsigned int i = 0; i < n; ++i)
       row_pointers[i] = open_row(f[i]);
 
-    // A block of nine numbers is in two cache lines. Of a run, the list before,
-    // that of the cell next to it, had all but the last block.
+    // A block of nine numbers is in two cache lines.
     const unsigned int block_size  = n_components * n_components;
     const auto         fetch_block = [block_size](const double *block) {
       __builtin_prefetch(block, 1, 2);
@@ -291,14 +290,26 @@ namespace EBSMPM
     const Run *run = runs.data() + run_begins[list];
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = i; j < n; j += run->size, ++run)
-        fetch_block(row_pointers[run->is_transposed ? j : i] +
-                    (run->place + run->size - 1) * block_size);
+        {
+          const double *number =
+            row_pointers[run->is_transposed ? j : i] + run->place * block_size;
+          const double *const end = number + run->size * block_size;
+          for (; number < end; number += 8)
+            __builtin_prefetch(number, 1, 2);
+          __builtin_prefetch(end - 1, 1, 2);
+        }
     for (unsigned int i = 0; i < n; ++i)
       if (last_lists[f[i]] == list)
-        for (std::size_t k = mirror_begins[f[i]]; k < mirror_begins[f[i] + 1];
-             ++k)
-          fetch_block(open_row(mirrors[k].function) +
-                      mirrors[k].to * block_size);
+        {
+          const double *const begin = open_row(f[i]);
+          const double *const end   = begin + first_places[f[i]] * block_size;
+          for (const double *line = begin; line < end; line += 8)
+            __builtin_prefetch(line, 0, 2);
+          for (std::size_t k = mirror_begins[f[i]]; k < mirror_begins[f[i] + 1];
+               ++k)
+            fetch_block(open_row(mirrors[k].function) +
+                        mirrors[k].to * block_size);
+        }
   }
 
 

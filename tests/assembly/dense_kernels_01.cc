@@ -149,7 +149,7 @@ test_tangent(const unsigned int n)
   Error                  combination, tangent;
   for (const unsigned int n_points : {1U, 4U, 9U})
     for_each_instruction_set([&]() {
-      const unsigned int ldc = n_points + 1;
+      const unsigned int ldc = n_points / 4 * 4 + 4;
       Rows               X(n_rows * n_points, n, 3.);
       Rows               cX(n_rows * n_points, block_size * n);
       Rows               K(n, block_size * n);

@@ -99,13 +99,12 @@ namespace EBSMPM
      * symmetric $c_{ijkl}=c_{klij}$.
      *
      * @param n_points number of points $p$; there are n_rows rows for each
-     * @param n length of a row of @p G
+     * @param n length of a row of @p G, at least #max_n_short_lanes
      * @param c <tt>c[((b*n_rows+j)*n_rows+l)*ldc+p]</tt> is $c_{ijkl}(p)$ for the
-     *   pair $i\le k$ with number $b$ in lexicographic order
+     *   pair $i\le k$ with number $b$ in lexicographic order; these arrays are
+     *   read up to the next multiple of #max_n_short_lanes points
      * @param G, @p B row by row, rows being @p ldg and @p ldb apart; columns
-     *   $(Jik)$ of @p B are in lexicographic order, and up to #padding numbers
-     *   after them become zero, for which there must be room behind the last
-     *   row, too
+     *   $(Jik)$ of @p B are in lexicographic order, and padding is not written
      */
     template <int dim, int n_rows>
     void

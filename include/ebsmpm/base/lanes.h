@@ -94,6 +94,12 @@ namespace EBSMPM
     static EBSMPM_IN_EACH_TARGET type
     totals(const type *vectors);
 
+    /**
+     * Transpose the matrix whose rows are #n vectors, for at most four lanes.
+     */
+    static EBSMPM_IN_EACH_TARGET void
+    transpose(type *vectors);
+
   private:
     typedef double in_memory
       __attribute__((vector_size(n_bytes), aligned(8), may_alias));
@@ -123,6 +129,31 @@ namespace EBSMPM
                    EBSMPM_SHUFFLE(4, v[2], v[3], 1, 5, 3, 7);
     return EBSMPM_SHUFFLE(4, a, b, 0, 1, 4, 5) +
            EBSMPM_SHUFFLE(4, a, b, 2, 3, 6, 7);
+  }
+
+
+
+  template <>
+  EBSMPM_IN_EACH_TARGET void
+  Lanes<16>::transpose(type *v)
+  {
+    const type a = v[0], b = v[1];
+    v[0] = EBSMPM_SHUFFLE(2, a, b, 0, 2);
+    v[1] = EBSMPM_SHUFFLE(2, a, b, 1, 3);
+  }
+
+  template <>
+  EBSMPM_IN_EACH_TARGET void
+  Lanes<32>::transpose(type *v)
+  {
+    const type a = EBSMPM_SHUFFLE(4, v[0], v[1], 0, 4, 2, 6);
+    const type b = EBSMPM_SHUFFLE(4, v[0], v[1], 1, 5, 3, 7);
+    const type c = EBSMPM_SHUFFLE(4, v[2], v[3], 0, 4, 2, 6);
+    const type d = EBSMPM_SHUFFLE(4, v[2], v[3], 1, 5, 3, 7);
+    v[0]         = EBSMPM_SHUFFLE(4, a, c, 0, 1, 4, 5);
+    v[1]         = EBSMPM_SHUFFLE(4, b, d, 0, 1, 4, 5);
+    v[2]         = EBSMPM_SHUFFLE(4, a, c, 2, 3, 6, 7);
+    v[3]         = EBSMPM_SHUFFLE(4, b, d, 2, 3, 6, 7);
   }
 
 
