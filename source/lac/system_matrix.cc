@@ -23,6 +23,9 @@ namespace EBSMPM
 {
   namespace
   {
+    /** Number of doubles in a cache line. */
+    constexpr unsigned int doubles_per_line = 8;
+
     /** In bytes: open rows that fit in there need not be fetched. */
     constexpr std::size_t size_of_near_caches = 1U << 20;
 
@@ -40,11 +43,12 @@ namespace EBSMPM
     {
       std::size_t k = 0;
 #ifdef __SSE2__
-      constexpr unsigned int line = 64, pair = 16;
+      constexpr unsigned int line = doubles_per_line * sizeof(double),
+                             pair = 16;
       for (; k < n && reinterpret_cast<std::uintptr_t>(to + k) % line != 0; ++k)
         to[k] = from[k];
-      for (; k + line / sizeof(double) <= n; k += line / sizeof(double))
-        for (unsigned int l = 0; l < line / sizeof(double);
+      for (; k + doubles_per_line <= n; k += doubles_per_line)
+        for (unsigned int l = 0; l < doubles_per_line;
              l += pair / sizeof(double))
           _mm_stream_pd(to + k + l, _mm_loadu_pd(from + k + l));
 #endif
@@ -294,7 +298,7 @@ namespace EBSMPM
           const double *number =
             row_pointers[run->is_transposed ? j : i] + run->place * block_size;
           const double *const end = number + run->size * block_size;
-          for (; number < end; number += 8)
+          for (; number < end; number += doubles_per_line)
             __builtin_prefetch(number, 1, 2);
           __builtin_prefetch(end - 1, 1, 2);
         }
@@ -303,7 +307,7 @@ namespace EBSMPM
         {
           const double *const begin = open_row(f[i]);
           const double *const end   = begin + first_places[f[i]] * block_size;
-          for (const double *line = begin; line < end; line += 8)
+          for (const double *line = begin; line < end; line += doubles_per_line)
             __builtin_prefetch(line, 0, 2);
           for (std::size_t k = mirror_begins[f[i]]; k < mirror_begins[f[i] + 1];
                ++k)

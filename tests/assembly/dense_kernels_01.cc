@@ -149,10 +149,11 @@ test_tangent(const unsigned int n)
   Error                  combination, tangent;
   for (const unsigned int n_points : {1U, 4U, 9U})
     for_each_instruction_set([&]() {
-      const unsigned int ldc = n_points / 4 * 4 + 4;
-      Rows               X(n_rows * n_points, n, 3.);
-      Rows               cX(n_rows * n_points, block_size * n);
-      Rows               K(n, block_size * n);
+      const unsigned int ldc =
+        (n_points / max_n_short_lanes + 1) * max_n_short_lanes;
+      Rows X(n_rows * n_points, n, 3.);
+      Rows cX(n_rows * n_points, block_size * n);
+      Rows K(n, block_size * n);
 
       // c_{ijkl} = c_{klij}.
       const auto c = [](const unsigned int p,
