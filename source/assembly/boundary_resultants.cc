@@ -26,10 +26,8 @@ namespace EBSMPM
       for (const auto id : ids)
         result[id] = Tensor<1, dim>();
       for (unsigned int q = 0; q < flux.size(); ++q)
-        for (unsigned int i = 0; i < dim; ++i)
-          if (boundary.constrained[q][i])
-            result.at(boundary.boundary_id[q])[i] +=
-              boundary.area[q] * flux[q][i];
+        result.at(boundary.boundary_id[q]) +=
+          boundary.area[q] * (boundary.projection[q] * flux[q]);
       for (auto &entry : result)
         entry.second = Utilities::MPI::sum(entry.second, communicator);
       return result;

@@ -247,12 +247,14 @@ namespace EBSMPM
             const unsigned int q       = boundary_groups.point(k);
             const auto         motions = RigidMotions::at<dim>(
               (boundary_points.location(q) - moment.centre) / moment.radius);
-            for (unsigned int a = 0; a < dim; ++a)
-              if (boundary.constrained[q][a])
-                for (unsigned int m = 0; m < n_motions; ++m)
-                  for (unsigned int n = 0; n < n_motions; ++n)
-                    sum[m * n_motions + n] +=
-                      boundary.area[q] * motions[m][a] * motions[n][a];
+            for (unsigned int m = 0; m < n_motions; ++m)
+              {
+                const Tensor<1, dim> prevented =
+                  boundary.projection[q] * motions[m];
+                for (unsigned int n = 0; n < n_motions; ++n)
+                  sum[m * n_motions + n] +=
+                    boundary.area[q] * (prevented * motions[n]);
+              }
           }
       }
     Utilities::MPI::sum(sums, communicator, sums);

@@ -32,7 +32,7 @@ namespace EBSMPM
   {
     batch.initialize(max_n_points);
     products.initialize(n_functions, max_n_points);
-    is_prescribed.assign(dim * batch.row_length(), 0.);
+    projections.assign(dim * dim * batch.row_length(), 0.);
     duals.resize((dim + 1) * dim * batch.row_length());
     coefficients.resize(batch.n_pairs * (dim + 1) * (dim + 1) *
                         batch.row_length());
@@ -55,14 +55,17 @@ namespace EBSMPM
       for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
         {
           const Vector penalty = terms->beta * L::load(batch.weight() + p);
-          Vector       is_prescribed[dim], w[dim];
+          Vector       Pi[dim][dim], w[dim];
           for (unsigned int i = 0; i < dim; ++i)
             {
-              is_prescribed[i] = L::load(terms->prescribed(i) + p);
-              w[i]             = L::load(batch.w(i) + p);
-              const Vector t   = L::load(batch.traction(i) + p);
-              L::store(penalty * w[i] - is_prescribed[i] * t,
-                       terms->dual(0, i) + p);
+              w[i]       = L::load(batch.w(i) + p);
+              Vector sum = penalty * w[i];
+              for (unsigned int m = 0; m < dim; ++m)
+                {
+                  Pi[i][m] = L::load(terms->projection(i, m) + p);
+                  sum -= Pi[i][m] * L::load(batch.traction(m) + p);
+                }
+              L::store(sum, terms->dual(0, i) + p);
             }
           for (unsigned int j = 0; j < dim; ++j)
             for (unsigned int l = 0; l < dim; ++l)
@@ -79,16 +82,20 @@ namespace EBSMPM
           for (unsigned int i = 0, pair = 0; i < dim; ++i)
             for (unsigned int k = i; k < dim; ++k, ++pair)
               {
-                L::store(i == k ? penalty * is_prescribed[i] : zero,
+                L::store(penalty * Pi[i][k],
                          terms->coefficient(pair, 0, 0) + p);
                 for (unsigned int j = 0; j < dim; ++j)
                   {
-                    const Vector T_i = L::load(batch.derivative(i, k, j) + p);
-                    const Vector T_k = L::load(batch.derivative(k, i, j) + p);
-                    L::store(-is_prescribed[i] * T_i,
-                             terms->coefficient(pair, 0, 1 + j) + p);
-                    L::store(-is_prescribed[k] * T_k,
-                             terms->coefficient(pair, 1 + j, 0) + p);
+                    Vector T_i = {}, T_k = {};
+                    for (unsigned int m = 0; m < dim; ++m)
+                      {
+                        T_i -=
+                          Pi[i][m] * L::load(batch.derivative(m, k, j) + p);
+                        T_k -=
+                          Pi[k][m] * L::load(batch.derivative(m, i, j) + p);
+                      }
+                    L::store(T_i, terms->coefficient(pair, 0, 1 + j) + p);
+                    L::store(T_k, terms->coefficient(pair, 1 + j, 0) + p);
                     for (unsigned int l = 0; l < dim; ++l)
                       L::store(task == AssemblyTask::tangent ?
                                  -L::load(batch.second_derivative(pair, j, l) +
@@ -155,8 +162,9 @@ namespace EBSMPM
         Tensor<1, dim>     value;
         for (unsigned int a = 0; a < dim; ++a)
           {
-            value[a]         = products.increment(p, 0, a);
-            prescribed(a)[p] = boundary.constrained[q][a] ? 1. : 0.;
+            value[a] = products.increment(p, 0, a);
+            for (unsigned int b = 0; b < dim; ++b)
+              projection(a, b)[p] = boundary.projection[q][a][b];
           }
         batch.set(p,
                   deformation<dim>(products.gradient(p), boundary.F[q]),

@@ -23,14 +23,13 @@ namespace EBSMPM
     const std::string              &name,
     const std::string              &text,
     const std::vector<std::string> &boundary_names,
-    const Components                components)
+    const std::string              &normal_name)
   {
     const std::string variables = (dim == 2 ? "x,y,u" : "x,y,z,u");
 
     std::vector<std::string> component_names = {"x", "y", "z"};
-    component_names.resize(dim);
-    if (components == Components::coordinates_and_pressure)
-      component_names.push_back("pressure");
+    component_names.resize(along_normal);
+    component_names.push_back(normal_name);
     std::string list = component_names[0];
     for (unsigned int c = 1; c < component_names.size(); ++c)
       list += ", " + component_names[c];

@@ -245,7 +245,8 @@ namespace EBSMPM
     add_parameter("Conditions",
                   conditions,
                   "Prescribed displacements, 'boundary.component = formula' in "
-                  "x, y(, z) and the load u, separated by semicolons.");
+                  "x, y(, z) and the load u, separated by semicolons; "
+                  "'boundary.normal = formula' lets the body slide along it.");
     add_parameter("Tractions",
                   tractions,
                   "Given forces per area, 'boundary.component = formula', or "

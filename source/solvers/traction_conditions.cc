@@ -18,20 +18,23 @@ namespace EBSMPM
     const std::string              &text,
     const std::vector<std::string> &boundary_names,
     const BoundaryFormulas<dim>    &displacements)
-    : formulas("traction",
-               text,
-               boundary_names,
-               BoundaryFormulas<dim>::Components::coordinates_and_pressure)
+    : formulas("traction", text, boundary_names, "pressure")
   {
     for (unsigned int id = 0; id < boundary_names.size(); ++id)
-      for (unsigned int c = 0; c < dim; ++c)
-        AssertThrow(displacements.formula(id, c) == nullptr ||
-                      (formulas.formula(id, c) == nullptr &&
-                       formulas.formula(id, formulas.pressure) == nullptr),
-                    ExcInput("The boundary '" + boundary_names[id] +
-                             "' has a prescribed displacement in direction " +
-                             std::string("xyz").substr(c, 1) +
-                             " and cannot have a traction there."));
+      for (unsigned int c = 0; c <= dim; ++c)
+        if (displacements.formula(id, c) != nullptr)
+          for (unsigned int t = 0; t <= dim; ++t)
+            AssertThrow(formulas.formula(id, t) == nullptr ||
+                          (t != c && t != formulas.along_normal &&
+                           c != formulas.along_normal),
+                        ExcInput("The boundary '" + boundary_names[id] +
+                                 "' has a prescribed displacement " +
+                                 (c == formulas.along_normal ?
+                                    "along its normal and cannot have a "
+                                    "traction." :
+                                    "in direction " +
+                                      std::string("xyz").substr(c, 1) +
+                                      " and cannot have a traction there.")));
   }
 
 
@@ -51,7 +54,7 @@ namespace EBSMPM
         Tensor<1, dim> &traction = boundary.traction[q];
 
         traction = Tensor<1, dim>();
-        if (const auto *p = formulas.formula(id, formulas.pressure))
+        if (const auto *p = formulas.formula(id, formulas.along_normal))
           traction = -p->value(X) * boundary.normal[q];
         for (unsigned int c = 0; c < dim; ++c)
           if (const auto *formula = formulas.formula(id, c))

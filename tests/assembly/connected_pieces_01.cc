@@ -78,8 +78,10 @@ test(const std::string &blocks)
       boundary.normal[q]      = point.reference_normal();
       boundary.F[q]           = unit_symmetric_tensor<dim>();
       boundary.boundary_id[q] = point.boundary_id();
-      boundary.constrained[q].fill(point.boundary_id() == 0);
-      boundary.constrained[q][1] = true;
+      boundary.projection[q]  = 0.;
+      if (point.boundary_id() == 0)
+        boundary.projection[q] = unit_symmetric_tensor<dim>();
+      boundary.projection[q][1][1] = 1.;
       if (point.boundary_id() == 0)
         boundary.prescribed[q][0] = push;
       else

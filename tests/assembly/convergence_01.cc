@@ -10,7 +10,8 @@
 // Orders of convergence on a unit square that is turned by 0.4 against the
 // grid: linear elasticity with manufactured displacement and Nitsche's
 // conditions on all edges, and the damage equation with a manufactured damage
-// whose normal derivative is zero. And a linear displacement is exact.
+// whose normal derivative is zero. And a linear displacement is exact, also if
+// only its normal component is prescribed, and the traction along the edges.
 //
 // The elasticity converges with h^(p+1) in the L2 norm and with h^p in the
 // energy norm, and so does the damage.
@@ -117,8 +118,15 @@ compute_errors(const BodyOnGrid<2>                                      &body,
 
 
 
+enum class Problem
+{
+  elasticity,
+  patch,
+  sliding_patch
+};
+
 Errors
-solve_elasticity(BodyOnGrid<2> &body, const bool linear)
+solve_elasticity(BodyOnGrid<2> &body, const Problem problem)
 {
   const LinearElastic<2> material(K, G, EnergySplit::none);
   const Degradation      degradation(1e-4);
@@ -128,8 +136,8 @@ solve_elasticity(BodyOnGrid<2> &body, const bool linear)
     material, degradation, penalty_factor * material.nitsche_stiffness() / h);
   body.reinit(system);
 
-  const auto exact = [linear](const unsigned int a, const Point<2> &x) -> Jet {
-    if (!linear)
+  const auto exact = [problem](const unsigned int a, const Point<2> &x) -> Jet {
+    if (problem == Problem::elasticity)
       return displacement(a, x);
     Jet result;
     result.gradient =
@@ -138,13 +146,25 @@ solve_elasticity(BodyOnGrid<2> &body, const bool linear)
     return result;
   };
   for (unsigned int q = 0; q < body.boundary_points.n_points(); ++q)
-    for (unsigned int a = 0; a < 2; ++a)
-      body.boundary.prescribed[q][a] =
-        exact(a, body.boundary_points.location(q)).value;
+    {
+      const Jet u[2]              = {exact(0, body.boundary_points.location(q)),
+                                     exact(1, body.boundary_points.location(q))};
+      body.boundary.prescribed[q] = Tensor<1, 2>({u[0].value, u[1].value});
+      if (problem == Problem::sliding_patch)
+        {
+          const Tensor<1, 2>         &N = body.boundary.normal[q];
+          const Tensor<1, 2>          t({-N[1], N[0]});
+          const SymmetricTensor<2, 2> strain =
+            symmetrize(Tensor<2, 2>({{u[0].gradient[0], u[0].gradient[1]},
+                                     {u[1].gradient[0], u[1].gradient[1]}}));
+          body.boundary.projection[q] = symmetrize(outer_product(N, N));
+          body.boundary.traction[q]   = 2. * G * (t * (strain * N)) * t;
+        }
+    }
 
   LA::FieldVector u = system.make_vector(), residual = u;
   system.assemble_tangent(body.state, body.boundary, u, residual);
-  if (!linear)
+  if (problem == Problem::elasticity)
     system.add_body_force(body.state, BodyForce(), residual);
   solve_directly(system.matrix(), u, residual);
   u *= -1.;
@@ -213,14 +233,20 @@ table(const std::string &name, const unsigned int degree)
         {
           if (level > 1)
             break;
-          const Errors e = solve_elasticity(body, true);
-          deallog << "  n = " << (8 << level) << ": "
-                  << verdict(std::max(e.value, e.gradient), 1e-9) << std::endl;
+          deallog << "  n = " << (8 << level) << ": ";
+          for (const auto problem : {Problem::patch, Problem::sliding_patch})
+            {
+              const Errors e = solve_elasticity(body, problem);
+              deallog << (problem == Problem::patch ? "" : ", sliding ")
+                      << verdict(std::max(e.value, e.gradient), 1e-9);
+            }
+          deallog << std::endl;
           continue;
         }
 
-      errors.push_back(name == "damage" ? solve_damage(body) :
-                                          solve_elasticity(body, false));
+      errors.push_back(name == "damage" ?
+                         solve_damage(body) :
+                         solve_elasticity(body, Problem::elasticity));
       const Errors &e = errors.back();
       deallog << "  n = " << (8 << level) << ": " << digits(e.value, 3) << "  "
               << digits(e.gradient, 3);

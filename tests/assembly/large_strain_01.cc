@@ -129,7 +129,8 @@ test(const bool with_damage)
   for (unsigned int q = 0; q < body->boundary_points.n_points(); ++q)
     {
       const auto id = body->boundary.boundary_id[q];
-      body->boundary.constrained[q].fill(id == setup.held || id == setup.moved);
+      if (id != setup.held && id != setup.moved)
+        body->boundary.projection[q] = 0.;
       if (with_damage)
         body->boundary.damage[q] =
           0.4 + 0.3 * scatter(body->boundary_points.location(q), 1, 3.);
@@ -195,7 +196,7 @@ test(const bool with_damage)
                       (P * transpose(body->state.F[q]) * setup.along);
             }
           for (unsigned int q = 0; q < body->boundary_points.n_points(); ++q)
-            if (body->boundary.constrained[q][0])
+            if (body->boundary.projection[q].norm() > 0.)
               {
                 typename Material<dim>::Response response;
                 material->response(boundary.F[q],

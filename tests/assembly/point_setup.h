@@ -130,8 +130,8 @@ struct BodyOnGrid
       F = unit_symmetric_tensor<dim>();
     for (auto &F : boundary.F)
       F = unit_symmetric_tensor<dim>();
-    for (auto &c : boundary.constrained)
-      c.fill(true);
+    for (auto &Pi : boundary.projection)
+      Pi = unit_symmetric_tensor<dim>();
   }
 
   /** What the points say about functions; for make_space(). */
@@ -306,8 +306,8 @@ move_body(const BodyOnGrid<dim>         &old,
       result->boundary.displacement[q] =
         old.boundary.displacement[i] +
         boundary_update.displacement_increment[i];
-      result->boundary.constrained[q] = old.boundary.constrained[i];
-      result->boundary.prescribed[q]  = old.boundary.prescribed[i];
+      result->boundary.projection[q] = old.boundary.projection[i];
+      result->boundary.prescribed[q] = old.boundary.prescribed[i];
     }
   return result;
 }

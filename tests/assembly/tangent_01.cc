@@ -82,11 +82,22 @@ disturb(BodyOnGrid<dim> &body)
           body.boundary.displacement[q][d] = 0.1 * scatter(x, 20 + d);
           body.boundary.prescribed[q][d]   = 0.1 * scatter(x, 30 + d);
           body.boundary.traction[q][d]     = 5. * scatter(x, 40 + d);
-          // All components on one edge, none on another, one on the others.
-          const unsigned int id = body.boundary.boundary_id[q];
-          body.boundary.constrained[q][d] =
-            (id == 0 || (id >= 2 && id % dim == d));
         }
+      // All components on one edge, none on another, an oblique direction on
+      // the third, one component on the others.
+      const unsigned int       id = body.boundary.boundary_id[q];
+      SymmetricTensor<2, dim> &Pi = body.boundary.projection[q];
+      Tensor<1, dim>           oblique;
+      for (unsigned int d = 0; d < dim; ++d)
+        oblique[d] = d + 1.;
+      Pi = 0.;
+      if (id == 0)
+        Pi = unit_symmetric_tensor<dim>();
+      else if (id == 2)
+        Pi =
+          symmetrize(outer_product(oblique, oblique)) / oblique.norm_square();
+      else if (id > 2)
+        Pi[id % dim][id % dim] = 1.;
     }
 }
 

@@ -116,11 +116,11 @@ test(const unsigned int degree,
       const double lambda = 1. + 0.01455 * step / 15.;
       for (unsigned int q = 0; q < body->boundary_points.n_points(); ++q)
         {
-          const unsigned int face = body->boundary.boundary_id[q];
-          for (unsigned int d = 0; d < dim; ++d)
-            body->boundary.constrained[q][d] = (face / 2 == d);
-          const Point<dim> X           = reference(q);
-          body->boundary.prescribed[q] = Tensor<1, dim>();
+          const unsigned int face      = body->boundary.boundary_id[q];
+          body->boundary.projection[q] = 0.;
+          body->boundary.projection[q][face / 2][face / 2] = 1.;
+          const Point<dim> X                               = reference(q);
+          body->boundary.prescribed[q]                     = Tensor<1, dim>();
           body->boundary.prescribed[q][0] =
             (lambda - 1.) * (X[0] - a[0]) + drift * h * step / n_steps;
         }

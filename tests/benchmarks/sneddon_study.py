@@ -15,10 +15,11 @@ usage: sneddon_study.py PROGRAM FOLDER [--jobs N] [--table] [CASE ...]
 Runs sneddon_line.prm and sneddon_penny.prm with the changes listed below, N cases
 at a time (default 2), each on one process, into FOLDER/CASE, and prints a table
 of the volume of the opened crack over that of the formula, and of the work of the
-pressure over twice the elastic energy. The penny with a/h = 10 takes most of the
-time and of the memory. The table of all cases is stored in sneddon_study.output.
+pressure over twice the elastic energy. The largest case, wedge-10-10, takes 18 GB.
+The table of all cases is stored in sneddon_study.output.
 
-Names of cases: line-N or penny-N for h = a/N; then half the width of the box, in
+Names of cases: line-N, penny-N or wedge-N for h = a/N, where the wedge is a penny
+with trilinear functions on an eighth of the box; then half the width of the box, in
 units of a; then the position of the tip in its cell, in units of h, if
 functions are separable up to 0.45 h from the tip, or what else is different.
 """
@@ -32,6 +33,7 @@ PRESSURE = 1e-3
 EXACT = {
     "line": math.pi * (1 - NU2) * PRESSURE,
     "penny": 4 * (1 - NU2) / 3 * PRESSURE,
+    "wedge": 2 * (1 - NU2) / 3 * PRESSURE,
 }
 
 
@@ -55,6 +57,26 @@ def penny(n, width, **changes):
         "Background grid/Upper corner": f"{width}+2*h, {width}+2*h, {width}+2*h",
         "Body/Shape": f"box(0,0,{-width}, {width},{width},{width})",
         **changes,
+    }
+
+
+def wedge(n, width):
+    # Half of the quarter, with the diagonal plane as a plane of symmetry. It lies
+    # midway between the points if the lines of the grid are h/4 beyond the axis;
+    # an even number of points per cell keeps that near the crack.
+    return {
+        "": "../tests/benchmarks/sneddon_penny.prm",
+        "Background grid/Degree": "1",
+        "Background grid/Cell size": f"1/{n}",
+        "Background grid/Lower corner": f"-2*h+h/4, -2*h, {-width}-2*h",
+        "Background grid/Upper corner": f"{width}+2*h+h/4, {width}+2*h, {width}+2*h",
+        "Body/Shape": f"box(0,0,{-width}, {width}+h/4,{width}+h/4,{width}) & "
+        "half_space(0,0,0, -1,1,0)",
+        "Body/Regions": "6: box(-1,-1,-0.3, 1.4,1.4,0.3)",
+        "Body/Boundaries": "diagonal: nx < -0.5; y: ny < -0.5; "
+        "top: nz > 0.5; bottom: nz < -0.5",
+        "Loading/Conditions": "diagonal.normal = 0; y.y = 0; top.z = 0; bottom.z = 0",
+        "Linear solver/Displacement": "CG+IC",
     }
 
 
@@ -87,6 +109,8 @@ CASES = {
     "penny-8-4": [penny(8, 4)],
     "penny-10-4": [penny(10, 4)],
     **{f"penny-{n}-3": [penny(n, 3)] for n in (8, 10, 12, 14, 16)},
+    **{f"wedge-{n}-10": [wedge(n, 10)] for n in (5, 8, 10)},
+    **{f"wedge-{n}-3": [wedge(n, 3)] for n in (8, 10, 12, 14, 16)},
 }
 
 

@@ -626,9 +626,15 @@ def run_bad_input():
     refuse({"Loading/Increments": "1e-3"}, ["Loading/Increments"])
     refuse({"Loading/Driven boundary": "left.x"}, ["Loading/Driven boundary"])
     refuse({"Loading/Conditions": "left.x = 0"}, ["left"])
+    refuse({"Loading/Conditions": "top.normal = u; top.x = 0"}, ["top", "normal"])
     refuse({"Body/Shape": "box(0,0, 1"}, ["position"])
     refuse({"Staggered/Maximum passes": "0"}, ["Staggered/Maximum passes"])
     refuse({"Loading/Tractions": "top.x = 1"}, ["top", "direction x"])
+    sliding = "bottom.x = 0; bottom.y = 0; top.normal = u"
+    refuse(
+        {"Loading/Conditions": sliding, "Loading/Tractions": "top.x = 1"},
+        ["top", "along its normal"],
+    )
     refuse({"Loading/Tractions": "slit.upper.pressure = 1"}, ["slit.upper"])
     refuse({"Loading/Tractions": "top.p = 1"}, ["pressure"])
     refuse({"Notch/Type": "none", "Notch/Faces": "true"}, ["Notch/Faces"])

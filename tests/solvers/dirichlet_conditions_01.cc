@@ -57,13 +57,30 @@ main(int argc, char **argv)
                   << names[body.boundary.boundary_id[q]] << " at "
                   << body.boundary_points.location(q) << ':';
           for (unsigned int c = 0; c < 2; ++c)
-            if (body.boundary.constrained[q][c])
+            if (body.boundary.projection[q][c][c] == 1.)
               deallog << ' ' << body.boundary.prescribed[q][c];
             else
               deallog << " free";
           deallog << std::endl;
         }
     }
+
+  // Along an oblique normal.
+  {
+    const DirichletConditions<2> sliding("right.normal = 2*u + y", names);
+    for (auto &N : body.boundary.normal)
+      N = Tensor<1, 2>({0.6, 0.8});
+    sliding.apply(2., body.boundary_points, body.boundary);
+    const auto rates = sliding.rates(2., body.boundary_points, body.boundary);
+    for (unsigned int q = 0; q < body.boundary_points.n_points(); ++q)
+      if (names[body.boundary.boundary_id[q]] == "right")
+        deallog << "sliding: " << body.boundary.projection[q] << ", "
+                << body.boundary.prescribed[q] << ", rate " << rates[q]
+                << std::endl;
+      else
+        AssertThrow(body.boundary.projection[q].norm() == 0.,
+                    ExcInternalError());
+  }
 
   for (const std::string text : {"top.y",
                                  "top = u",
@@ -72,7 +89,9 @@ main(int argc, char **argv)
                                  "top.xy = u",
                                  "top.y = u +",
                                  "top.y = w",
-                                 "top.y = z"})
+                                 "top.y = z",
+                                 "top.normal = u; left.x = 0",
+                                 "top.normal = u; top.x = 0"})
     try
       {
         DirichletConditions<2> wrong(text, names);

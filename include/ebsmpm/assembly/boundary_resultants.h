@@ -33,7 +33,7 @@ namespace EBSMPM
   {
     /**
      * Return the sums of the flux over each of the boundaries, in the
-     * components that are prescribed, $\sum_b A_0\,\mathbf f$.
+     * directions that are prescribed, $\sum_b A_0\,\mathbf\Pi\,\mathbf f$.
      *
      * @param boundary the state at the start of the step
      * @param flux $\mathbf f$ at all points, see DisplacementSystem::flux()

@@ -33,8 +33,8 @@ namespace EBSMPM
    * about its centre and divided by its radius of gyration, the free ones are
    * the null space of
    * @f[
-   *   M_{mn} = \sum_b A_0 \sum_{a\text{ prescribed}} r_{m,a}(\mathbf x_b)\,
-   *   r_{n,a}(\mathbf x_b)
+   *   M_{mn} = \sum_b A_0\, \mathbf r_m(\mathbf x_b)\cdot\mathbf\Pi\,
+   *   \mathbf r_n(\mathbf x_b)
    * @f]
    * over the boundary points of the piece.
    *
@@ -67,7 +67,7 @@ namespace EBSMPM
      *
      * @param points, @p volumes, @p groups the material points
      * @param boundary_points, @p boundary, @p boundary_groups the boundary
-     *   points; BoundaryState::constrained says what is prescribed
+     *   points; BoundaryState::projection says what is prescribed
      * @param functions the partitioner of a scalar problem on the space, with
      *   which the groups were made
      */

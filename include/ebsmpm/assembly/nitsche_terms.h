@@ -26,8 +26,9 @@ namespace EBSMPM
    * conditions by Nitsche's method, the second sum of the residual of
    * DisplacementSystem, and given tractions.
    *
-   * With $\mathbf w=\mathbf u_n+\Delta\mathbf u-\bar{\mathbf u}$, zero in
-   * components that are not prescribed, the energy of the boundary terms is
+   * With $\mathbf w=\mathbf\Pi(\mathbf u_n+\Delta\mathbf u-\bar{\mathbf u})$,
+   * where $\mathbf\Pi$ projects onto the directions that are prescribed (all,
+   * some components, or the normal), the energy of the boundary terms is
    * $\sum_b A_0(\frac\beta2|\mathbf w|^2-\mathbf w\cdot\mathbf P\mathbf N)$.
    * Let $B_I$ be the functions of the cell, $\mathbf G_I=\nabla_n B_I$, and
    * @f[
@@ -36,17 +37,15 @@ namespace EBSMPM
    * @f]
    * the derivative of component $i$ of the traction $\mathbf P\mathbf N$ with
    * respect to the gradient of the increment, and to its coefficients
-   * ($\mathbf F$ here is $\mathbf F_n$). With sums over the prescribed
-   * components $i$ only, and the derivative of $\mathbf A$ in the direction
-   * $\mathbf W=\mathbf w\otimes\mathbf N$, $\mathrm d\mathbf A$, residual and
-   * tangent are
+   * ($\mathbf F$ here is $\mathbf F_n$). With the derivative of $\mathbf A$ in
+   * the direction $\mathbf W=\mathbf w\otimes\mathbf N$, $\mathrm d\mathbf A$,
+   * residual and tangent are
    * @f{align*}{
-   *   r_{Ij} &= \sum_b A_0 \Bigl[ \sum_i \delta_{ij}\, B_I\,
-   *     (\beta w_i - P_{iB} N_B) - \sum_i w_i\, T^i_{jl}\, G_{Il} \Bigr], \\
-   *   K_{Ij,Jk} &= \sum_b A_0 \Bigl[ \sum_i \bigl( \delta_{ij}\delta_{ik}\,
-   *     \beta\, B_I B_J - \delta_{ij}\, B_I\, t^i_{Jk} - \delta_{ik}\, t^i_{Ij}
-   *     \, B_J \bigr) - G_{Im} F_{mB}\, \mathrm dA_{jBkD}\, F_{lD} G_{Jl}
-   *     \Bigr]
+   *   r_{Ij} &= \sum_b A_0 \Bigl[ B_I\,
+   *     (\beta w_j - \Pi_{ji} P_{iB} N_B) - w_i\, T^i_{jl}\, G_{Il} \Bigr], \\
+   *   K_{Ij,Jk} &= \sum_b A_0 \Bigl[ \beta\,\Pi_{jk}\, B_I B_J
+   *     - B_I\, \Pi_{ji}\, t^i_{Jk} - \Pi_{ki}\, t^i_{Ij}\, B_J
+   *     - G_{Im} F_{mB}\, \mathrm dA_{jBkD}\, F_{lD} G_{Jl} \Bigr]
    * @f}
    * (equation (6) of Sugai et al.; method, section 3). The last term is of the
    * size of the mismatch, but without it Newton's method would not be
@@ -64,13 +63,11 @@ namespace EBSMPM
    * These are GroupProducts in terms of value and gradient, with the
    * coefficients
    * @f{align*}{
-   *   c_{i0k0} &= A_0\,\delta_{ik}\,\beta, &
-   *   c_{i0kl} &= -A_0\, T^i_{kl}, \\
-   *   c_{ijk0} &= -A_0\, T^k_{ij}, &
-   *   c_{ijkl} &= -A_0\, F_{jB}\,\mathrm dA_{iBkD}\,F_{lD},
+   *   c_{i0k0} &= A_0\,\beta\,\Pi_{ik}, &
+   *   c_{i0kl} &= -A_0\,\Pi_{im} T^m_{kl}, \\
+   *   c_{ijk0} &= -A_0\,\Pi_{km} T^m_{ij}, &
+   *   c_{ijkl} &= -A_0\, F_{jB}\,\mathrm dA_{iBkD}\,F_{lD}.
    * @f}
-   * the first two for prescribed components $i$ and the third for prescribed
-   * components $k$ only.
    *
    * The material computes several points side by side, see TractionBatch.
    * Memory is allocated by initialize() only.
@@ -136,11 +133,11 @@ namespace EBSMPM
              ((pair * (dim + 1) + j) * (dim + 1) + l) * batch.row_length();
     }
 
-    /** The array of ones where component @p i is prescribed, or else zeros. */
+    /** The array of $\Pi_{ij}$. */
     double *
-    prescribed(const unsigned int i)
+    projection(const unsigned int i, const unsigned int j)
     {
-      return is_prescribed.data() + i * batch.row_length();
+      return projections.data() + (i * dim + j) * batch.row_length();
     }
 
     /** Combine the answers of the material for several points side by side. */
@@ -154,7 +151,7 @@ namespace EBSMPM
     TractionBatch<dim>          batch;
     GroupProducts<dim, dim + 1> products;
 
-    std::vector<double> is_prescribed;
+    std::vector<double> projections;
     std::vector<double> duals;
     std::vector<double> coefficients;
   };

@@ -15,7 +15,6 @@
 #include <deal.II/base/tensor.h>
 #include <deal.II/base/types.h>
 
-#include <array>
 #include <vector>
 
 namespace EBSMPM
@@ -85,12 +84,17 @@ namespace EBSMPM
     /** Prescribed displacement $\bar{\mathbf u}$ at the end of the step. */
     std::vector<Tensor<1, dim>> prescribed;
 
-    /** Which components are prescribed; the others are free of traction. */
-    std::vector<std::array<bool, dim>> constrained;
+    /**
+     * The projection $\mathbf\Pi$ onto the directions in which the displacement
+     * is prescribed; the others are free of traction. The identity where the
+     * body is held, $\mathbf N\otimes\mathbf N$ where it slides along the
+     * boundary.
+     */
+    std::vector<SymmetricTensor<2, dim>> projection;
 
     /**
      * Force per reference area at the end of the step, $\mathbf t$, in
-     * components that are not prescribed.
+     * directions that are not prescribed.
      */
     std::vector<Tensor<1, dim>> traction;
 
@@ -105,7 +109,7 @@ namespace EBSMPM
       damage.resize(n);
       boundary_id.resize(n);
       prescribed.resize(n);
-      constrained.resize(n);
+      projection.resize(n);
       traction.resize(n);
     }
   };

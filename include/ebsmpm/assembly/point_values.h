@@ -45,8 +45,7 @@ namespace EBSMPM
 
   /**
    * Return what is unmet of the Dirichlet condition at boundary point @p q,
-   * $\mathbf w=\mathbf u_n+\Delta\mathbf u-\bar{\mathbf u}$ in prescribed
-   * components, and zero in the others.
+   * $\mathbf w=\mathbf\Pi(\mathbf u_n+\Delta\mathbf u-\bar{\mathbf u})$.
    */
   template <int dim>
   inline Tensor<1, dim>
@@ -54,12 +53,8 @@ namespace EBSMPM
            const unsigned int        q,
            const Tensor<1, dim>     &increment)
   {
-    Tensor<1, dim> w;
-    for (unsigned int i = 0; i < dim; ++i)
-      if (boundary.constrained[q][i])
-        w[i] = boundary.displacement[q][i] + increment[i] -
-               boundary.prescribed[q][i];
-    return w;
+    return boundary.projection[q] *
+           (boundary.displacement[q] + increment - boundary.prescribed[q]);
   }
 
 

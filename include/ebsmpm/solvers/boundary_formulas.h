@@ -32,20 +32,15 @@ namespace EBSMPM
    *   bottom.x = 0; top.y = 2*u + x
    * @endcode
    * in the reference coordinates <tt>x, y(, z)</tt> and the load <tt>u</tt>.
+   * Components are x, y(, z), and what acts along the normal, which the two
+   * classes call differently.
    */
   template <int dim>
   class BoundaryFormulas
   {
   public:
-    /** Kinds of components that an entry may name besides x, y(, z). */
-    enum class Components
-    {
-      coordinates,
-      coordinates_and_pressure
-    };
-
-    /** The number by which formula() knows the pressure. */
-    static constexpr unsigned int pressure = dim;
+    /** The number by which formula() knows what acts along the normal. */
+    static constexpr unsigned int along_normal = dim;
 
     /**
      * Read the formulas.
@@ -54,7 +49,7 @@ namespace EBSMPM
      * @param text as described above
      * @param boundary_names the names of the boundaries; their position in the
      *   list is the boundary id
-     * @param components what entries may name
+     * @param normal_name what entries call the component along the normal
      *
      * Raises ExcInput for a name that does not exist, or a formula that makes
      * no sense.
@@ -62,7 +57,7 @@ namespace EBSMPM
     BoundaryFormulas(const std::string              &name,
                      const std::string              &text,
                      const std::vector<std::string> &boundary_names,
-                     const Components components = Components::coordinates);
+                     const std::string              &normal_name);
 
     /** Let the formulas take @p load as the value of u from now on. */
     void
