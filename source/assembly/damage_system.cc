@@ -68,7 +68,7 @@ namespace EBSMPM
              0.);
     product.resize(n * stride);
     local_vector.resize(n);
-    extension_product.initialize(n, m, 1);
+    extension_product.initialize(n, m);
     return is_new;
   }
 
@@ -100,10 +100,11 @@ namespace EBSMPM
                               LA::FieldVector           &right_hand_side)
   {
     const BSplineKernel<dim> kernel(spline_space->degree());
-    const unsigned int       n      = kernel.n_functions();
-    const unsigned int       stride = DenseKernels::padded(n);
-    std::array<double, BSplineKernel<dim>::max_n_functions>       B;
-    std::array<double, dim * BSplineKernel<dim>::max_n_functions> G;
+    const unsigned int       n        = kernel.n_functions();
+    const unsigned int       stride   = DenseKernels::padded(n);
+    constexpr unsigned int   g_stride = BSplineKernel<dim>::max_n_functions + 1;
+    std::array<double, g_stride>       B;
+    std::array<double, dim * g_stride> G;
 
     right_hand_side.zero_out_ghost_values();
     right_hand_side = 0.;
@@ -122,7 +123,7 @@ namespace EBSMPM
           {
             const unsigned int q = material_groups.point(k);
             kernel.values_and_gradients(
-              points->unit_point(q), inverse_h, B.data(), G.data(), n);
+              points->unit_point(q), inverse_h, B.data(), G.data(), g_stride);
 
             const double          V = state.volume[q];
             const double          H = state.history[q];
@@ -141,7 +142,7 @@ namespace EBSMPM
                 {
                   double sum = 0.;
                   for (unsigned int j = 0; j < dim; ++j)
-                    sum += F[j][d] * G[j * n + i];
+                    sum += F[j][d] * G[j * g_stride + i];
                   x[i] = root_diffusion * sum;
                 }
           }

@@ -7,8 +7,6 @@
 //
 // -----------------------------------------------------------------------------
 
-#include <ebsmpm/splines/bspline_kernel.h>
-
 #include <ebsmpm/assembly/elastic_terms.h>
 #include <ebsmpm/assembly/point_values.h>
 
@@ -61,13 +59,6 @@ namespace EBSMPM
                             const LocalSystem<dim>          &local)
   {
     const unsigned int n_points = local.n_points();
-    std::array<double, BSplineKernel<dim>::max_n_functions> B;
-
-    for (unsigned int p = 0; p < n_points; ++p)
-      local.values_and_gradients(p,
-                                 B.data(),
-                                 products.row(p, 0),
-                                 products.stride());
     products.evaluate(n_points, local);
 
     batch.reinit(n_points);

@@ -42,6 +42,7 @@ namespace EBSMPM
   GroupProducts<dim, n_rows>::evaluate(const unsigned int      n_points,
                                        const LocalSystem<dim> &local)
   {
+    local.template functionals<n_rows>(X.data(), x_stride);
     for (unsigned int I = 0; I < n; ++I)
       for (unsigned int a = 0; a < dim; ++a)
         coefficients[a * x_stride + I] = local.coefficient(I)[a];

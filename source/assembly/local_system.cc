@@ -7,6 +7,8 @@
 //
 // -----------------------------------------------------------------------------
 
+#include <ebsmpm/base/lanes.h>
+
 #include <ebsmpm/assembly/dense_kernels.h>
 #include <ebsmpm/assembly/field_evaluation.h>
 #include <ebsmpm/assembly/local_system.h>
@@ -30,7 +32,7 @@ namespace EBSMPM
     residual.resize(n);
     stride = DenseKernels::padded(dim * dim * n);
     tangent_rows.resize(n * stride);
-    extension_product.initialize(n, m, dim * dim);
+    extension_product.initialize(n, m);
   }
 
 
@@ -68,6 +70,36 @@ namespace EBSMPM
   LocalSystem<dim>::gather(const LA::FieldVector &increment)
   {
     gather_coefficients<dim>(*groups, *group, increment, coefficients.data());
+  }
+
+
+
+  template <int dim>
+  template <int n_rows>
+  struct LocalSystem<dim>::Functionals
+  {
+    template <unsigned int n_bytes>
+    static EBSMPM_IN_EACH_TARGET void
+    run(const LocalSystem<dim> *local, double *X, const unsigned int stride)
+    {
+      for (unsigned int k = 0; k < local->n_points(); ++k, X += n_rows * stride)
+        local->kernel.template values_and_gradients<n_bytes>(
+          local->points->unit_point(local->point(k)),
+          local->inverse_h,
+          n_rows > dim ? X : nullptr,
+          n_rows > dim ? X + stride : X,
+          stride);
+    }
+  };
+
+
+
+  template <int dim>
+  template <int n_rows>
+  void
+  LocalSystem<dim>::functionals(double *X, const unsigned int stride) const
+  {
+    run_best<Functionals<n_rows>>(this, X, stride);
   }
 
 
@@ -116,4 +148,13 @@ namespace EBSMPM
 
   template class LocalSystem<2>;
   template class LocalSystem<3>;
+
+  template void
+  LocalSystem<2>::functionals<2>(double *, const unsigned int) const;
+  template void
+  LocalSystem<2>::functionals<3>(double *, const unsigned int) const;
+  template void
+  LocalSystem<3>::functionals<3>(double *, const unsigned int) const;
+  template void
+  LocalSystem<3>::functionals<4>(double *, const unsigned int) const;
 } // namespace EBSMPM

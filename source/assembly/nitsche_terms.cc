@@ -148,11 +148,6 @@ namespace EBSMPM
                               const LocalSystem<dim>          &local)
   {
     const unsigned int n_points = local.n_points();
-    for (unsigned int p = 0; p < n_points; ++p)
-      local.values_and_gradients(p,
-                                 products.row(p, 0),
-                                 products.row(p, 1),
-                                 products.stride());
     products.evaluate(n_points, local);
 
     batch.reinit(n_points);

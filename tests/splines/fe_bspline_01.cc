@@ -115,15 +115,16 @@ test(const unsigned int degree)
   deallog << fe.get_name() << ": " << n << " functions, "
           << dof_handler.n_dofs() << " of the DoFHandler" << std::endl;
 
-  const QGauss<dim>                                             quadrature(3);
-  const MappingQ1<dim>                                          mapping;
-  FEValues<dim>                                                 values(mapping,
+  const QGauss<dim>          quadrature(3);
+  const MappingQ1<dim>       mapping;
+  FEValues<dim>              values(mapping,
                        fe,
                        quadrature,
                        update_values | update_gradients);
-  std::array<double, BSplineKernel<dim>::max_n_functions>       B, B2;
-  std::array<double, dim * BSplineKernel<dim>::max_n_functions> G;
-  Tensor<1, dim>                                                inverse_h;
+  constexpr unsigned int     stride = BSplineKernel<dim>::max_n_functions + 1;
+  std::array<double, stride> B, B2;
+  std::array<double, dim * stride> G;
+  Tensor<1, dim>                   inverse_h;
   for (unsigned int d = 0; d < dim; ++d)
     inverse_h[d] = 4.;
 
@@ -133,7 +134,7 @@ test(const unsigned int degree)
     {
       kernel.values(quadrature.point(q), B.data());
       kernel.values_and_gradients(
-        quadrature.point(q), inverse_h, B2.data(), G.data(), n);
+        quadrature.point(q), inverse_h, B2.data(), G.data(), stride);
       double         sum = -1.;
       Tensor<1, dim> gradient_sum;
       for (unsigned int i = 0; i < n; ++i)
@@ -144,9 +145,9 @@ test(const unsigned int degree)
                                  std::abs(B[i] - values.shape_value(i, q)),
                                  std::abs(B[i] - B2[i])});
           for (unsigned int d = 0; d < dim; ++d)
-            difference =
-              std::max(difference,
-                       std::abs(G[d * n + i] - values.shape_grad(i, q)[d]));
+            difference = std::max(difference,
+                                  std::abs(G[d * stride + i] -
+                                           values.shape_grad(i, q)[d]));
         }
       unity = std::max({unity, std::abs(sum), gradient_sum.norm()});
     }

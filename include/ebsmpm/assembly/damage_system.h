@@ -168,7 +168,7 @@ namespace EBSMPM
 
     /** Arrays of the loop over the groups, allocated once. */
     std::vector<double> X, product, local_vector;
-    ExtensionProduct    extension_product;
+    ExtensionProduct<1> extension_product;
   };
 } // namespace EBSMPM
 

@@ -19,19 +19,23 @@ namespace EBSMPM
   /**
    * Resolves the constraints of a group of points in its matrix: $E^T K E$,
    * where $E$ is that of PointGroups, and the entries of $K$ are small blocks
-   * (a number per pair of components).
+   * (a number per pair of components). As $K$ is symmetric, one half of the
+   * product is computed.
    *
-   * Most rows of $E$ are those of the identity, and the others have few
-   * entries; so the product is a sum over these.
+   * Most columns of $E$ have few entries, and the product is a sum over these,
+   * first $E^T K$ row by row, and then that times $E$ block by block.
    *
    * @code
-   * ExtensionProduct product;
-   * product.initialize(n_functions, max_n_unknown_functions, block_size);
+   * ExtensionProduct<block_size> product;
+   * product.initialize(n_functions, max_n_unknown_functions);
    * const double *R = product.compute(E, m, K, ldk);
    * @endcode
    *
    * Memory is allocated by initialize() only.
+   *
+   * @tparam block_size number of entries of a block: 1, 4 or 9
    */
+  template <unsigned int block_size>
   class ExtensionProduct
   {
   public:
@@ -40,23 +44,24 @@ namespace EBSMPM
      *
      * @param n_functions number of functions of a cell, rows of $E$
      * @param max_n_columns the largest number of columns of $E$
-     * @param block_size number of entries of a block
      */
     void
     initialize(const unsigned int n_functions,
-               const unsigned int max_n_columns,
-               const unsigned int block_size);
+               const unsigned int max_n_columns);
 
     /**
      * Compute the product.
      *
      * @param E the matrix, row by row
      * @param m its number of columns
-     * @param K block $(I,J)$ begins at <tt>K[I*ldk+J*block_size]</tt>
-     * @param ldk distance between two rows
+     * @param K the whole matrix: block $(I,J)$ begins at
+     *   <tt>K[I*ldk+J*block_size]</tt>
+     * @param ldk distance between two rows, at least that of
+     *   DenseKernels::padded()
      *
      * Return an array in which block $(i,j)$ begins at
-     * <tt>(i*m+j)*block_size</tt>. It is valid until the next call.
+     * <tt>(i*m+j)*block_size</tt>, for $i\le j$. What else there is in it does
+     * not matter. It is valid until the next call.
      */
     const double *
     compute(const double      *E,
@@ -65,20 +70,24 @@ namespace EBSMPM
             const unsigned int ldk);
 
   private:
-    /** An entry of E. */
+    /** An entry of a column of E. */
     struct Entry
     {
-      unsigned int row;
-      unsigned int column;
       double       value;
+      unsigned int row;
     };
 
-    unsigned int n    = 0;
-    unsigned int size = 0;
+    /** The computation, for several instruction sets. */
+    struct Multiply;
+    friend struct Multiply;
 
-    std::vector<Entry>  entries;
-    std::vector<double> half;
-    std::vector<double> result;
+    unsigned int n           = 0;
+    unsigned int half_stride = 0;
+
+    std::vector<Entry>        entries;
+    std::vector<unsigned int> column_ends;
+    std::vector<double>       half;
+    std::vector<double>       result;
   };
 } // namespace EBSMPM
 

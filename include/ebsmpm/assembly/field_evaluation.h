@@ -88,9 +88,10 @@ namespace EBSMPM
     const BSplineKernel<dim> kernel(degree);
     const unsigned int       n = kernel.n_functions();
     std::array<Tensor<1, n_components>, BSplineKernel<dim>::max_n_functions>
-                                                                  coefficients;
-    std::array<double, BSplineKernel<dim>::max_n_functions>       B;
-    std::array<double, dim * BSplineKernel<dim>::max_n_functions> dB;
+                               coefficients;
+    constexpr unsigned int     stride = BSplineKernel<dim>::max_n_functions + 1;
+    std::array<double, stride> B;
+    std::array<double, dim * stride> dB;
 
     for (const auto &group : groups.groups())
       {
@@ -105,7 +106,7 @@ namespace EBSMPM
           {
             const unsigned int q = groups.point(k);
             kernel.values_and_gradients(
-              points.unit_point(q), inverse_h, B.data(), dB.data(), n);
+              points.unit_point(q), inverse_h, B.data(), dB.data(), stride);
 
             Tensor<1, n_components>                  value;
             std::array<Tensor<1, dim>, n_components> gradient;
@@ -114,7 +115,7 @@ namespace EBSMPM
                 {
                   value[a] += coefficients[i][a] * B[i];
                   for (unsigned int d = 0; d < dim; ++d)
-                    gradient[a][d] += coefficients[i][a] * dB[d * n + i];
+                    gradient[a][d] += coefficients[i][a] * dB[d * stride + i];
                 }
             visit(q, value, gradient);
           }

@@ -41,8 +41,6 @@ namespace EBSMPM
    * @code
    * GroupProducts<dim, dim> products;        // gradients only
    * products.initialize(n_functions, max_n_points);
-   * for (unsigned int p = 0; p < n_points; ++p)
-   *   local.values_and_gradients(p, B, products.row(p, 0), products.stride());
    * products.evaluate(n_points, local);
    * for (unsigned int p = 0; p < n_points; ++p)
    *   products.dual(p, j, i) = ...;            // from products.increment()
@@ -65,21 +63,7 @@ namespace EBSMPM
     void
     initialize(const unsigned int n_functions, const unsigned int max_n_points);
 
-    /** Row $(p,j)$ of $\mathbf X$, to be filled; its padding must stay zero. */
-    double *
-    row(const unsigned int p, const unsigned int j)
-    {
-      return X.data() + (p * n_rows + j) * x_stride;
-    }
-
-    /** Distance between two rows of $\mathbf X$. */
-    unsigned int
-    stride() const
-    {
-      return x_stride;
-    }
-
-    /** Evaluate the functionals of the increment of @p local. */
+    /** Evaluate the functionals, and those of the increment of @p local. */
     void
     evaluate(const unsigned int n_points, const LocalSystem<dim> &local);
 

@@ -129,14 +129,13 @@ namespace EBSMPM
     values(const unsigned int k, double *B) const;
 
     /**
-     * Compute values and gradients of all functions at a point of the group:
-     * <tt>G[d*stride+i]</tt> is $\partial B_i/\partial x_d$.
+     * Compute functionals of all functions at all points of the group, a row
+     * per point and functional: the gradient, component by component, or before
+     * it also the value, if @p n_rows is larger than dim.
      */
+    template <int n_rows>
     void
-    values_and_gradients(const unsigned int k,
-                         double            *B,
-                         double            *G,
-                         const unsigned int stride) const;
+    functionals(double *X, const unsigned int stride) const;
 
     /** Return the coefficient of function @p i of the cell. */
     const Tensor<1, dim> &
@@ -145,10 +144,6 @@ namespace EBSMPM
     /** Return the increment, where the functions have the values @p B. */
     Tensor<1, dim>
     value(const double *B) const;
-
-    /** Return the gradients of its components, from those of the functions. */
-    std::array<Tensor<1, dim>, dim>
-    gradient(const double *G, const unsigned int stride) const;
 
     /**
      * The tangent, row by row: <tt>tangent()[I*tangent_stride() + (J*dim+a)*dim
@@ -187,6 +182,10 @@ namespace EBSMPM
     std::vector<Tensor<1, dim>> residual;
 
   private:
+    /** The computation of functionals(), for several instruction sets. */
+    template <int n_rows>
+    struct Functionals;
+
     const SplineSpace<dim>                 *space  = nullptr;
     const CellPoints<dim>                  *points = nullptr;
     const PointGroups<dim>                 *groups = nullptr;
@@ -203,9 +202,9 @@ namespace EBSMPM
     unsigned int stride = 0;
 
     /** The tangent, for the kernels at the beginning of a cache line. */
-    AlignedVector<double> tangent_rows;
-    bool                  tangent_begun = false;
-    ExtensionProduct      extension_product;
+    AlignedVector<double>       tangent_rows;
+    bool                        tangent_begun = false;
+    ExtensionProduct<dim * dim> extension_product;
   };
 
 
@@ -258,19 +257,6 @@ namespace EBSMPM
 
 
   template <int dim>
-  inline void
-  LocalSystem<dim>::values_and_gradients(const unsigned int k,
-                                         double            *B,
-                                         double            *G,
-                                         const unsigned int stride) const
-  {
-    kernel.values_and_gradients(
-      points->unit_point(point(k)), inverse_h, B, G, stride);
-  }
-
-
-
-  template <int dim>
   inline const Tensor<1, dim> &
   LocalSystem<dim>::coefficient(const unsigned int i) const
   {
@@ -287,20 +273,6 @@ namespace EBSMPM
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int a = 0; a < dim; ++a)
         result[a] += coefficients[i][a] * B[i];
-    return result;
-  }
-
-
-
-  template <int dim>
-  inline std::array<Tensor<1, dim>, dim>
-  LocalSystem<dim>::gradient(const double *G, const unsigned int stride) const
-  {
-    std::array<Tensor<1, dim>, dim> result;
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int a = 0; a < dim; ++a)
-        for (unsigned int d = 0; d < dim; ++d)
-          result[a][d] += coefficients[i][a] * G[d * stride + i];
     return result;
   }
 

@@ -11,11 +11,13 @@
 #define ebsmpm_splines_bspline_kernel_h
 
 #include <ebsmpm/base/constant.h>
+#include <ebsmpm/base/lanes.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/utilities.h>
 
 #include <array>
+#include <type_traits>
 
 namespace EBSMPM
 {
@@ -89,11 +91,15 @@ namespace EBSMPM
      *
      * @param xi point in $[0,1]^\text{dim}$
      * @param inverse_h one over the cell's edge lengths
-     * @param B array of n_functions() values
+     * @param B array of n_functions() values and one more number, which is
+     *   overwritten; or a null pointer if no values are wanted
      * @param dB array of dim rows
-     * @param stride distance between two rows, at least n_functions()
+     * @param stride distance between two rows, larger than n_functions()
+     *
+     * @tparam n_bytes length of a register, in kernels for run_best()
      */
-    inline void
+    template <unsigned int n_bytes = 2 * sizeof(double)>
+    EBSMPM_IN_EACH_TARGET void
     values_and_gradients(const Point<dim>     &xi,
                          const Tensor<1, dim> &inverse_h,
                          double               *B,
@@ -103,8 +109,17 @@ namespace EBSMPM
   private:
     /** The pieces on the unit interval and their derivatives. */
     template <unsigned int degree>
-    static inline void
+    static EBSMPM_IN_EACH_TARGET void
     univariate(const double x, double *N, double *dN);
+
+    /** Their tensor products. */
+    template <unsigned int degree, unsigned int n_bytes>
+    static EBSMPM_IN_EACH_TARGET void
+    tensor_products(const Point<dim>     &xi,
+                    const Tensor<1, dim> &inverse_h,
+                    double               *B,
+                    double               *dB,
+                    const unsigned int    stride);
 
     unsigned int p;
     unsigned int n;
@@ -116,7 +131,7 @@ namespace EBSMPM
 
   template <int dim>
   template <unsigned int degree>
-  inline void
+  EBSMPM_IN_EACH_TARGET void
   BSplineKernel<dim>::univariate(const double x, double *N, double *dN)
   {
     const double y = 1. - x;
@@ -175,53 +190,72 @@ namespace EBSMPM
 
 
   template <int dim>
-  inline void
+  template <unsigned int degree, unsigned int n_bytes>
+  EBSMPM_IN_EACH_TARGET void
+  BSplineKernel<dim>::tensor_products(const Point<dim>     &xi,
+                                      const Tensor<1, dim> &inverse_h,
+                                      double               *B,
+                                      double               *dB,
+                                      const unsigned int    stride)
+  {
+    constexpr unsigned int m = degree + 1;
+    double                 N[dim][m], dN[dim][m];
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        univariate<degree>(xi[d], N[d], dN[d]);
+        for (unsigned int i = 0; i < m; ++i)
+          dN[d][i] *= inverse_h[d];
+      }
+
+    // Functions side by side along x. Where vectors are longer, what is written
+    // too much is zero, and the next functions overwrite it.
+    using L = std::conditional_t<m == 2, Lanes<16>, ShortLanes<n_bytes>>;
+    constexpr unsigned int n_vectors      = (m + L::n - 1) / L::n;
+    typename L::type       N_x[n_vectors] = {}, dN_x[n_vectors] = {};
+    for (unsigned int i = 0; i < m; ++i)
+      {
+        N_x[i / L::n][i % L::n]  = N[0][i];
+        dN_x[i / L::n][i % L::n] = dN[0][i];
+      }
+
+    constexpr unsigned int y = (dim > 1 ? 1 : 0), z = dim - 1;
+    for (unsigned int k = 0, c = 0; k < (dim == 3 ? m : 1); ++k)
+      for (unsigned int j = 0; j < (dim > 1 ? m : 1); ++j, c += m)
+        {
+          const double N_y = (dim > 1 ? N[y][j] : 1.);
+          const double N_z = (dim == 3 ? N[z][k] : 1.);
+          for (unsigned int v = 0; v < n_vectors; ++v)
+            {
+              const unsigned int i = c + v * L::n;
+              if (B != nullptr)
+                L::store(N_x[v] * (N_y * N_z), B + i);
+              L::store(dN_x[v] * (N_y * N_z), dB + i);
+              if (dim > 1)
+                L::store(N_x[v] * (dN[y][j] * N_z), dB + stride + i);
+              if (dim == 3)
+                L::store(N_x[v] * (N_y * dN[z][k]), dB + 2 * stride + i);
+            }
+        }
+  }
+
+
+
+  template <int dim>
+  template <unsigned int n_bytes>
+  EBSMPM_IN_EACH_TARGET void
   BSplineKernel<dim>::values_and_gradients(const Point<dim>     &xi,
                                            const Tensor<1, dim> &inverse_h,
                                            double               *B,
                                            double               *dB,
                                            const unsigned int    stride) const
   {
-    with_constant(p, [&](const auto degree) {
-      constexpr unsigned int m = degree() + 1;
-      double                 N[3][m], dN[3][m];
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          univariate<degree()>(xi[d], N[d], dN[d]);
-          for (unsigned int i = 0; i < m; ++i)
-            dN[d][i] *= inverse_h[d];
-        }
-
-      if (dim == 1)
-        for (unsigned int i = 0; i < m; ++i)
-          {
-            B[i]  = N[0][i];
-            dB[i] = dN[0][i];
-          }
-      else if (dim == 2)
-        for (unsigned int j = 0, c = 0; j < m; ++j)
-          for (unsigned int i = 0; i < m; ++i, ++c)
-            {
-              B[c]           = N[0][i] * N[1][j];
-              dB[c]          = dN[0][i] * N[1][j];
-              dB[stride + c] = N[0][i] * dN[1][j];
-            }
-      else
-        for (unsigned int k = 0, c = 0; k < m; ++k)
-          for (unsigned int j = 0; j < m; ++j)
-            {
-              const double NN  = N[1][j] * N[2][k];
-              const double dNN = dN[1][j] * N[2][k];
-              const double NdN = N[1][j] * dN[2][k];
-              for (unsigned int i = 0; i < m; ++i, ++c)
-                {
-                  B[c]               = N[0][i] * NN;
-                  dB[c]              = dN[0][i] * NN;
-                  dB[stride + c]     = N[0][i] * dNN;
-                  dB[2 * stride + c] = N[0][i] * NdN;
-                }
-            }
-    });
+    // Not with_constant(): a lambda would not become part of the kernel.
+    if (p == 1)
+      tensor_products<1, n_bytes>(xi, inverse_h, B, dB, stride);
+    else if (p == 2)
+      tensor_products<2, n_bytes>(xi, inverse_h, B, dB, stride);
+    else
+      tensor_products<3, n_bytes>(xi, inverse_h, B, dB, stride);
   }
 
 #endif
