@@ -103,8 +103,8 @@ namespace EBSMPM
     const unsigned int       n        = kernel.n_functions();
     const unsigned int       stride   = DenseKernels::padded(n);
     constexpr unsigned int   g_stride = BSplineKernel<dim>::max_n_functions + 1;
-    std::array<double, g_stride>       B;
-    std::array<double, dim * g_stride> G;
+    std::array<double, g_stride>       B{};
+    std::array<double, dim * g_stride> G{};
 
     right_hand_side.zero_out_ghost_values();
     right_hand_side = 0.;

@@ -346,9 +346,7 @@ namespace EBSMPM
         const SymmetricTensor<2, dim> mass =
           density * state.volume[q] *
           connected_pieces.free_directions(g, points->location(q));
-        const Tensor<1, dim> force = mass * local.value(B.data());
-        for (unsigned int i = 0; i < n; ++i)
-          local.residual[i] += B[i] * force;
+        local.add_force(mass * local.value(B.data()), B.data());
         if (task != AssemblyTask::residual)
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int j = i; j < n; ++j)
@@ -376,10 +374,8 @@ namespace EBSMPM
           {
             const unsigned int q = local.point(k);
             local.values(k, B.data());
-            const Tensor<1, dim> f =
-              state.volume[q] * force.value(points->location(q));
-            for (unsigned int i = 0; i < local.n_functions(); ++i)
-              local.residual[i] -= B[i] * f;
+            local.add_force(-state.volume[q] * force.value(points->location(q)),
+                            B.data());
           }
         local.distribute_residual(residual);
       }

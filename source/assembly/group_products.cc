@@ -29,10 +29,8 @@ namespace EBSMPM
     cX.fill(0.);
 
     increments_stride = n_rows * n_points;
-    coefficients.assign(dim * x_stride, 0.);
     increments.resize(dim * increments_stride);
     duals.resize(n_rows * n_points * dim);
-    residual.resize(dim * x_stride);
   }
 
 
@@ -42,13 +40,11 @@ namespace EBSMPM
   GroupProducts<dim, n_rows>::evaluate(const unsigned int      n_points,
                                        const LocalSystem<dim> &local)
   {
+    AssertDimension(local.row_stride(), x_stride);
     local.template functionals<n_rows>(X.data(), x_stride);
-    for (unsigned int I = 0; I < n; ++I)
-      for (unsigned int a = 0; a < dim; ++a)
-        coefficients[a * x_stride + I] = local.coefficient(I)[a];
     DenseKernels::row_products(n,
                                dim,
-                               coefficients.data(),
+                               local.coefficients(),
                                n_rows * n_points,
                                X.data(),
                                x_stride,
@@ -69,10 +65,8 @@ namespace EBSMPM
                                      duals.data(),
                                      dim,
                                      X.data(),
-                                     residual.data());
-    for (unsigned int I = 0; I < n; ++I)
-      for (unsigned int i = 0; i < dim; ++i)
-        local.residual[I][i] += residual[i * x_stride + I];
+                                     local.residual(),
+                                     /*add=*/true);
   }
 
 

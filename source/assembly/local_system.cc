@@ -28,9 +28,11 @@ namespace EBSMPM
 
     // The unknowns of a group without constraints are the coefficients.
     const unsigned int m = std::max(n, max_n_functions);
-    coefficients.resize(n);
-    residual.resize(n);
-    stride = DenseKernels::padded(dim * dim * n);
+    short_stride         = DenseKernels::padded(n);
+    stride               = DenseKernels::padded(dim * dim * n);
+    coefficient_rows.resize_fast(dim * short_stride);
+    coefficient_rows.fill(0.);
+    residual_rows.resize_fast(dim * short_stride);
     tangent_rows.resize(n * stride);
     extension_product.initialize(n, m);
   }
@@ -46,7 +48,7 @@ namespace EBSMPM
     go_on(points_, groups_, group_);
     inverse_h =
       space->lattice().inverse_cell_extents(points->cells()[group->cell].level);
-    std::fill(residual.begin(), residual.end(), Tensor<1, dim>());
+    residual_rows.fill(0.);
     tangent_begun = false;
   }
 
@@ -69,7 +71,12 @@ namespace EBSMPM
   void
   LocalSystem<dim>::gather(const LA::FieldVector &increment)
   {
+    std::array<Tensor<1, dim>, BSplineKernel<dim>::max_n_functions>
+      coefficients;
     gather_coefficients<dim>(*groups, *group, increment, coefficients.data());
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int a = 0; a < dim; ++a)
+        coefficient_rows[a * short_stride + i] = coefficients[i][a];
   }
 
 
@@ -112,17 +119,21 @@ namespace EBSMPM
     const unsigned int *f = groups->functions(*group);
     const double       *E = groups->extension(*group);
 
-    for (unsigned int j = 0; j < m; ++j)
-      {
-        Tensor<1, dim> sum;
-        if (E == nullptr)
-          sum = residual[j];
-        else
-          for (unsigned int i = 0; i < n; ++i)
-            sum += E[i * m + j] * residual[i];
-        for (unsigned int a = 0; a < dim; ++a)
-          vector.local_element(dim * f[j] + a) += sum[a];
-      }
+    const auto add = [&](const unsigned int function,
+                         const double       factor,
+                         const unsigned int i) {
+      for (unsigned int a = 0; a < dim; ++a)
+        vector.local_element(dim * function + a) +=
+          factor * residual_rows[a * short_stride + i];
+    };
+    if (E == nullptr)
+      for (unsigned int i = 0; i < n; ++i)
+        add(f[i], 1., i);
+    else
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < m; ++j, ++E)
+          if (*E != 0.)
+            add(f[j], *E, i);
   }
 
 

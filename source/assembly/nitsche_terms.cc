@@ -43,8 +43,34 @@ namespace EBSMPM
   template <int dim>
   struct NitscheTerms<dim>::Combine
   {
-    /** The numbers of the residual, and those of the tangent if wanted. */
+    /**
+     * The numbers of the residual, and those of the tangent if wanted. Most
+     * often, components are prescribed, and the projections are diagonal.
+     */
     template <unsigned int n_bytes>
+    static EBSMPM_IN_EACH_TARGET void
+    run(NitscheTerms<dim> *terms, const AssemblyTask task)
+    {
+      if (terms->is_diagonal)
+        run<n_bytes, true>(terms, task);
+      else
+        run<n_bytes, false>(terms, task);
+    }
+
+    /** Component @p i of a projected vector, from row i of the projection. */
+    template <bool is_diagonal, typename Vector>
+    static EBSMPM_IN_EACH_TARGET Vector
+    project(const unsigned int i, const Vector *Pi_i, const Vector *v)
+    {
+      Vector sum = Pi_i[i] * v[i];
+      if (!is_diagonal)
+        for (unsigned int m = 0; m < dim; ++m)
+          if (m != i)
+            sum += Pi_i[m] * v[m];
+      return sum;
+    }
+
+    template <unsigned int n_bytes, bool is_diagonal>
     static EBSMPM_IN_EACH_TARGET void
     run(NitscheTerms<dim> *terms, const AssemblyTask task)
     {
@@ -55,18 +81,17 @@ namespace EBSMPM
       for (unsigned int p = 0; p < batch.n_padded_points(); p += L::n)
         {
           const Vector penalty = terms->beta * L::load(batch.weight() + p);
-          Vector       Pi[dim][dim], w[dim];
+          Vector       Pi[dim][dim], w[dim], t[dim];
           for (unsigned int i = 0; i < dim; ++i)
             {
-              w[i]       = L::load(batch.w(i) + p);
-              Vector sum = penalty * w[i];
+              w[i] = L::load(batch.w(i) + p);
+              t[i] = L::load(batch.traction(i) + p);
               for (unsigned int m = 0; m < dim; ++m)
-                {
-                  Pi[i][m] = L::load(terms->projection(i, m) + p);
-                  sum -= Pi[i][m] * L::load(batch.traction(m) + p);
-                }
-              L::store(sum, terms->dual(0, i) + p);
+                Pi[i][m] = L::load(terms->projection(i, m) + p);
             }
+          for (unsigned int i = 0; i < dim; ++i)
+            L::store(penalty * w[i] - project<is_diagonal>(i, Pi[i], t),
+                     terms->dual(0, i) + p);
           for (unsigned int j = 0; j < dim; ++j)
             for (unsigned int l = 0; l < dim; ++l)
               {
@@ -86,16 +111,16 @@ namespace EBSMPM
                          terms->coefficient(pair, 0, 0) + p);
                 for (unsigned int j = 0; j < dim; ++j)
                   {
-                    Vector T_i = {}, T_k = {};
+                    Vector T_k[dim], T_i[dim];
                     for (unsigned int m = 0; m < dim; ++m)
                       {
-                        T_i -=
-                          Pi[i][m] * L::load(batch.derivative(m, k, j) + p);
-                        T_k -=
-                          Pi[k][m] * L::load(batch.derivative(m, i, j) + p);
+                        T_k[m] = L::load(batch.derivative(m, k, j) + p);
+                        T_i[m] = L::load(batch.derivative(m, i, j) + p);
                       }
-                    L::store(T_i, terms->coefficient(pair, 0, 1 + j) + p);
-                    L::store(T_k, terms->coefficient(pair, 1 + j, 0) + p);
+                    L::store(-project<is_diagonal>(i, Pi[i], T_k),
+                             terms->coefficient(pair, 0, 1 + j) + p);
+                    L::store(-project<is_diagonal>(k, Pi[k], T_i),
+                             terms->coefficient(pair, 1 + j, 0) + p);
                     for (unsigned int l = 0; l < dim; ++l)
                       L::store(task == AssemblyTask::tangent ?
                                  -L::load(batch.second_derivative(pair, j, l) +
@@ -151,6 +176,7 @@ namespace EBSMPM
     products.evaluate(n_points, local);
 
     batch.reinit(n_points);
+    is_diagonal = true;
     for (unsigned int p = 0; p < n_points; ++p)
       {
         const unsigned int q = local.point(p);
@@ -159,7 +185,11 @@ namespace EBSMPM
           {
             value[a] = products.increment(p, 0, a);
             for (unsigned int b = 0; b < dim; ++b)
-              projection(a, b)[p] = boundary.projection[q][a][b];
+              {
+                const double Pi_ab  = boundary.projection[q][a][b];
+                projection(a, b)[p] = Pi_ab;
+                is_diagonal         = is_diagonal && (a == b || Pi_ab == 0.);
+              }
           }
         batch.set(p,
                   deformation<dim>(products.gradient(p), boundary.F[q]),

@@ -30,7 +30,7 @@ namespace EBSMPM
     constexpr std::size_t size_of_near_caches = 1U << 20;
 
     /** In bytes: of larger matrices, little is in a cache when it is needed. */
-    constexpr std::size_t size_of_far_caches = 1U << 26;
+    constexpr std::size_t size_of_far_caches = 1U << 24;
 
 
 

@@ -180,7 +180,11 @@ public:
     large_product.add(384, 384, 384);
   }
 
-  /** Measure something in turn with dgemm: machines change their speed. */
+  /**
+   * Measure something in turn with dgemm: machines change their speed. What
+   * takes long is disturbed more often than a small product is, so the best of
+   * many is taken of both.
+   */
   template <typename Function>
   void
   compare(const std::string       &what,
@@ -194,7 +198,7 @@ public:
     std::vector<std::vector<double>> times;
     for (const CellProduct &product : products)
       times.emplace_back(product.ways.size(), infinity);
-    for (unsigned int i = 0; i < 12; ++i)
+    for (unsigned int i = 0; i < 24; ++i)
       {
         time       = std::min(time, seconds(function, 1));
         large_time = std::min(large_time, large_product.time());

@@ -48,17 +48,13 @@ namespace EBSMPM
     };
 
     if (const double *E = groups.extension(group))
-      {
-        for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int i = 0; i < n; ++i)
+        {
           coefficients[i] = Tensor<1, n_components>();
-        for (unsigned int j = 0; j < group.n_functions; ++j)
-          {
-            const auto x = unknowns(j);
-            for (unsigned int i = 0; i < n; ++i)
-              if (const double e = E[i * group.n_functions + j])
-                coefficients[i] += e * x;
-          }
-      }
+          for (unsigned int j = 0; j < group.n_functions; ++j, ++E)
+            if (*E != 0.)
+              coefficients[i] += *E * unknowns(j);
+        }
     else
       for (unsigned int i = 0; i < n; ++i)
         coefficients[i] = unknowns(i);

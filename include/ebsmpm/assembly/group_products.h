@@ -123,14 +123,12 @@ namespace EBSMPM
     AlignedVector<double> X;
     AlignedVector<double> cX;
 
-    /** The increment, a row per component, and its functionals. */
-    std::vector<double> coefficients;
+    /** The functionals of the increment, a row per component. */
     std::vector<double> increments;
     unsigned int        increments_stride = 0;
 
-    /** The numbers $s_{ij}(p)$; the residual, a row per component. */
+    /** The numbers $s_{ij}(p)$. */
     std::vector<double> duals;
-    std::vector<double> residual;
   };
 } // namespace EBSMPM
 

@@ -137,9 +137,24 @@ namespace EBSMPM
     void
     functionals(double *X, const unsigned int stride) const;
 
-    /** Return the coefficient of function @p i of the cell. */
-    const Tensor<1, dim> &
-    coefficient(const unsigned int i) const;
+    /**
+     * The coefficients of the increment, a row per component, with the number
+     * of each function of the cell.
+     */
+    const double *
+    coefficients() const;
+
+    /** The residual in the same order, to be added to. */
+    double *
+    residual();
+
+    /** Distance between two rows of these, see DenseKernels::padded(). */
+    unsigned int
+    row_stride() const;
+
+    /** Add a force to the residual of all functions, with the values @p B. */
+    void
+    add_force(const Tensor<1, dim> &force, const double *B);
 
     /** Return the increment, where the functions have the values @p B. */
     Tensor<1, dim>
@@ -178,9 +193,6 @@ namespace EBSMPM
     void
     distribute_tangent(const unsigned int list, SystemMatrix &matrix);
 
-    /** The residual, a vector per function of the cell. */
-    std::vector<Tensor<1, dim>> residual;
-
   private:
     /** The computation of functionals(), for several instruction sets. */
     template <int n_rows>
@@ -197,11 +209,12 @@ namespace EBSMPM
     /** One over the edge lengths of the cell. */
     Tensor<1, dim> inverse_h;
 
-    std::vector<Tensor<1, dim>> coefficients;
+    /** Distance between rows of a number, or of a block, per function. */
+    unsigned int short_stride = 0, stride = 0;
 
-    unsigned int stride = 0;
-
-    /** The tangent, for the kernels at the beginning of a cache line. */
+    /** For the kernels, these are at the beginning of a cache line. */
+    AlignedVector<double>       coefficient_rows;
+    AlignedVector<double>       residual_rows;
     AlignedVector<double>       tangent_rows;
     bool                        tangent_begun = false;
     ExtensionProduct<dim * dim> extension_product;
@@ -257,10 +270,39 @@ namespace EBSMPM
 
 
   template <int dim>
-  inline const Tensor<1, dim> &
-  LocalSystem<dim>::coefficient(const unsigned int i) const
+  inline const double *
+  LocalSystem<dim>::coefficients() const
   {
-    return coefficients[i];
+    return coefficient_rows.data();
+  }
+
+
+
+  template <int dim>
+  inline double *
+  LocalSystem<dim>::residual()
+  {
+    return residual_rows.data();
+  }
+
+
+
+  template <int dim>
+  inline unsigned int
+  LocalSystem<dim>::row_stride() const
+  {
+    return short_stride;
+  }
+
+
+
+  template <int dim>
+  inline void
+  LocalSystem<dim>::add_force(const Tensor<1, dim> &force, const double *B)
+  {
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int i = 0; i < n; ++i)
+        residual_rows[a * short_stride + i] += force[a] * B[i];
   }
 
 
@@ -270,9 +312,9 @@ namespace EBSMPM
   LocalSystem<dim>::value(const double *B) const
   {
     Tensor<1, dim> result;
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int a = 0; a < dim; ++a)
-        result[a] += coefficients[i][a] * B[i];
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int i = 0; i < n; ++i)
+        result[a] += coefficient_rows[a * short_stride + i] * B[i];
     return result;
   }
 

@@ -152,6 +152,7 @@ namespace EBSMPM
     GroupProducts<dim, dim + 1> products;
 
     std::vector<double> projections;
+    bool                is_diagonal = true;
     std::vector<double> duals;
     std::vector<double> coefficients;
   };

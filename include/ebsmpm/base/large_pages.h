@@ -28,6 +28,14 @@ namespace EBSMPM
    */
   void
   resize_in_large_pages(std::vector<double> &array, const std::size_t size);
+
+  /**
+   * Ask the operating system to move what is in @p size numbers from @p begin
+   * on, which somebody else has allocated, to large pages. Addresses stay the
+   * same. Linux does that from version 6.1 on.
+   */
+  void
+  move_to_large_pages(double *begin, const std::size_t size);
 } // namespace EBSMPM
 
 #endif

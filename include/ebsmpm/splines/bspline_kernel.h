@@ -210,12 +210,18 @@ namespace EBSMPM
     // Functions side by side along x. Where vectors are longer, what is written
     // too much is zero, and the next functions overwrite it.
     using L = std::conditional_t<m == 2, Lanes<16>, ShortLanes<n_bytes>>;
-    constexpr unsigned int n_vectors      = (m + L::n - 1) / L::n;
-    typename L::type       N_x[n_vectors] = {}, dN_x[n_vectors] = {};
+    constexpr unsigned int n_vectors                    = (m + L::n - 1) / L::n;
+    double                 along_x[2][n_vectors * L::n] = {};
+    typename L::type       N_x[n_vectors], dN_x[n_vectors];
     for (unsigned int i = 0; i < m; ++i)
       {
-        N_x[i / L::n][i % L::n]  = N[0][i];
-        dN_x[i / L::n][i % L::n] = dN[0][i];
+        along_x[0][i] = N[0][i];
+        along_x[1][i] = dN[0][i];
+      }
+    for (unsigned int v = 0; v < n_vectors; ++v)
+      {
+        N_x[v]  = L::load(along_x[0] + v * L::n);
+        dN_x[v] = L::load(along_x[1] + v * L::n);
       }
 
     constexpr unsigned int y = (dim > 1 ? 1 : 0), z = dim - 1;
