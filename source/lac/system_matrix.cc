@@ -29,9 +29,6 @@ namespace EBSMPM
     /** In bytes: open rows that fit in there need not be fetched. */
     constexpr std::size_t size_of_near_caches = 1U << 20;
 
-    /** In bytes: of larger matrices, little is in a cache when it is needed. */
-    constexpr std::size_t size_of_far_caches = 1U << 24;
-
 
 
     /**
@@ -264,11 +261,10 @@ namespace EBSMPM
       if (wanted != nullptr && !(*wanted)[function])
         return;
 
-      const std::size_t length = nc() * nc() * row_length(function);
-      const bool        is_large =
-        nc() * nc() * row_begins[n_owned] * sizeof(double) > size_of_far_caches;
-      double *const to    = row(function);
-      double *const split = is_large ? split_row.data() : to;
+      const std::size_t length   = nc() * nc() * row_length(function);
+      const bool        is_large = this->is_large();
+      double *const     to       = row(function);
+      double *const     split    = is_large ? split_row.data() : to;
       run_best<SplitRow<nc()>>(row_length(function), blocks, split);
       if (is_large)
         copy_past_caches(length, split, to);

@@ -250,7 +250,8 @@ namespace EBSMPM
                                                              column_numbers,
                                                              entries);
     AssertThrow(ierr == 0, ExcInternalError());
-    move_to_large_pages(entries, nc * nc * row_begins[n_owned]);
+    if (is_large())
+      move_to_large_pages(entries, nc * nc * row_begins[n_owned]);
   }
 
 

@@ -265,6 +265,16 @@ namespace EBSMPM
              const double      *values,
              const unsigned int stride);
 
+    /** Whether little of the matrix is in a cache when it is needed. */
+    bool
+    is_large() const
+    {
+      constexpr std::size_t size_of_far_caches = 1U << 24; // bytes
+      return n_components * n_components * row_begins[n_owned] *
+               sizeof(double) >
+             size_of_far_caches;
+    }
+
     unsigned int n_components = 0;
     unsigned int n_owned      = 0;
 
