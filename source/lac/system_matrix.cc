@@ -87,9 +87,9 @@ namespace EBSMPM
     add_list(next_list++, values, stride);
 
     // The next list is most often the next one to be added.
-    const bool is_large =
+    const bool are_rows_far =
       open_rows.size() * sizeof(double) > size_of_near_caches;
-    if (is_large && next_list + 1 < list_begins.size())
+    if (are_rows_far && next_list + 1 < list_begins.size())
       fetch_rows(next_list);
   }
 
