@@ -38,13 +38,14 @@ namespace EBSMPM
    * The unknown is the increment $\Delta\mathbf u$ from the configuration
    * $\mathbf x_n$ at the start of the step, on which all integrals are written.
    * With $\mathbf F = (\mathbf I+\nabla_n\Delta\mathbf u)\mathbf F_n$ and
-   * $\mathbf w=\mathbf u_n+\Delta\mathbf u-\bar{\mathbf u}$ (zero in components
-   * that are not prescribed), the residual is
+   * $\mathbf w=\mathbf\Pi(\mathbf u_n+\Delta\mathbf u-\bar{\mathbf u})$, where
+   * $\mathbf\Pi$ projects onto the directions that are prescribed, the residual
+   * is
    * @f[
    *   R(\delta\mathbf u) =
    *     \sum_p V_0\, (\mathbf P\mathbf F_n^T):\nabla_n\delta\mathbf u
    *   + \sum_b A_0\, \bigl[ \beta\, \mathbf w\cdot\delta\mathbf u
-   *     - \delta\mathbf u\cdot\mathbf P\mathbf N
+   *     - \delta\mathbf u\cdot\mathbf\Pi\mathbf P\mathbf N
    *     - \mathbf w\cdot(\mathbf A:\nabla_X\delta\mathbf u)\mathbf N
    *     - \mathbf t\cdot\delta\mathbf u \bigr],
    * @f]
