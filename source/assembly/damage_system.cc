@@ -63,7 +63,7 @@ namespace EBSMPM
     const unsigned int m      = std::max({n,
                                           material_groups.max_n_functions(),
                                           boundary_groups.max_n_functions()});
-    const unsigned int stride = DenseKernels::padded(n);
+    const unsigned int stride = padded(n);
     X.assign((dim + 1) * std::max(material_groups.max_n_points(), 1U) * stride,
              0.);
     product.resize(n * stride);
@@ -101,7 +101,7 @@ namespace EBSMPM
   {
     const BSplineKernel<dim> kernel(spline_space->degree());
     const unsigned int       n        = kernel.n_functions();
-    const unsigned int       stride   = DenseKernels::padded(n);
+    const unsigned int       stride   = padded(n);
     constexpr unsigned int   g_stride = BSplineKernel<dim>::max_n_functions + 1;
     std::array<double, g_stride>       B{};
     std::array<double, dim * g_stride> G{};
@@ -146,20 +146,17 @@ namespace EBSMPM
                   x[i] = root_diffusion * sum;
                 }
           }
-        DenseKernels::transposed_product((dim + 1) * (group.end - group.begin),
-                                         n,
-                                         stride,
-                                         X.data(),
-                                         stride,
-                                         X.data(),
-                                         product.data(),
-                                         false,
-                                         1);
+        DenseKernels::symmetric_product<1>((dim + 1) *
+                                             (group.end - group.begin),
+                                           n,
+                                           X.data(),
+                                           stride,
+                                           X.data(),
+                                           product.data());
         distribute(material_groups,
                    group,
                    list++,
                    product.data(),
-                   stride,
                    local_vector.data(),
                    right_hand_side);
       }
@@ -186,7 +183,6 @@ namespace EBSMPM
                      group,
                      list++,
                      product.data(),
-                     stride,
                      local_vector.data(),
                      right_hand_side);
         }
@@ -203,7 +199,6 @@ namespace EBSMPM
                                 const typename PointGroups<dim>::Group &group,
                                 const unsigned int                      list,
                                 double                                 *matrix,
-                                const unsigned int                      stride,
                                 const double                           *vector,
                                 LA::FieldVector &right_hand_side)
   {
@@ -220,16 +215,14 @@ namespace EBSMPM
               sum += E[I * m + i] * vector[I];
             right_hand_side.local_element(f[i]) += sum;
           }
-        DenseKernels::complete_symmetric<1>(n, stride, matrix);
-        system_matrix.add(list,
-                          extension_product.compute(E, m, matrix, stride),
-                          m);
+        DenseKernels::complete_symmetric<1>(n, matrix);
+        system_matrix.add(list, extension_product.compute(E, m, matrix));
       }
     else
       {
         for (unsigned int i = 0; i < n; ++i)
           right_hand_side.local_element(f[i]) += vector[i];
-        system_matrix.add(list, matrix, stride);
+        system_matrix.add(list, matrix);
       }
   }
 

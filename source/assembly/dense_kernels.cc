@@ -49,6 +49,7 @@ namespace EBSMPM
         const unsigned int lda;
         const double      *B;
         double            *C;
+        const unsigned int ld;
         const bool         add;
         const unsigned int block_size;
 
@@ -82,7 +83,7 @@ namespace EBSMPM
               unsigned int       i = 0) const
         {
           for (; i + height <= end_row; i += height)
-            tile<n_vectors, height>(A + i, B + j, C + i * n_columns + j);
+            tile<n_vectors, height>(A + i, B + j, C + i * ld + j);
           if constexpr (height > 1)
             tiles<n_vectors, height - 1>(end_row, j, i);
         }
@@ -92,14 +93,14 @@ namespace EBSMPM
         tile(const double *a, const double *b, double *c) const
         {
           typename L::type sums[height][n_vectors] = {};
-          for (unsigned int k = 0; k < n_inner; ++k, a += lda, b += n_columns)
+          for (unsigned int k = 0; k < n_inner; ++k, a += lda, b += ld)
             for (unsigned int v = 0; v < n_vectors; ++v)
               {
                 const typename L::type b_v = L::load(b + L::n * v);
                 for (unsigned int i = 0; i < height; ++i)
                   sums[i][v] += a[i] * b_v;
               }
-          for (unsigned int i = 0; i < height; ++i, c += n_columns)
+          for (unsigned int i = 0; i < height; ++i, c += ld)
             for (unsigned int v = 0; v < n_vectors; ++v)
               {
                 double *const to = c + L::n * v;
@@ -122,12 +123,53 @@ namespace EBSMPM
             const unsigned int lda,
             const double      *B,
             double            *C,
-            const bool         add,
-            const unsigned int block_size)
+            const bool         add)
         {
           const TransposedProductTiles<n_bytes> product = {
-            n_inner, n_rows, n_columns, A, lda, B, C, add, block_size};
+            n_inner, n_rows, n_columns, A, lda, B, C, n_columns, add, 0};
           product.panels();
+        }
+      };
+
+
+
+      /** See DenseKernels::symmetric_product(). */
+      template <int n_components>
+      struct SymmetricProduct
+      {
+        template <unsigned int n_bytes>
+        static EBSMPM_IN_EACH_TARGET void
+        run(const unsigned int n_inner,
+            const unsigned int n,
+            const double      *A,
+            const unsigned int lda,
+            const double      *B,
+            double            *C,
+            const bool         add)
+        {
+          using Row                = BlockRow<n_components>;
+          const unsigned int tails = Row::tails(n);
+          const unsigned int ld    = Row::length(n);
+          if constexpr (Row::head_size > 0)
+            {
+              const TransposedProductTiles<n_bytes> product = {
+                n_inner, n, tails, A, lda, B, C, ld, add, Row::head_size};
+              product.panels();
+            }
+          if constexpr (Row::has_tails)
+            {
+              const TransposedProductTiles<n_bytes> product = {n_inner,
+                                                               n,
+                                                               padded(n),
+                                                               A,
+                                                               lda,
+                                                               B + tails,
+                                                               C + tails,
+                                                               ld,
+                                                               add,
+                                                               1};
+              product.panels();
+            }
         }
       };
 
@@ -179,25 +221,23 @@ namespace EBSMPM
 
 
 
-      /**
-       * See DenseKernels::combine_rows(). Registers of four numbers suffice,
-       * since blocks have four or nine. The ninth numbers of several blocks are
-       * computed side by side.
-       */
+      /** See DenseKernels::combine_rows(). */
       template <int dim, int n_rows>
       struct CombineRows
       {
-        static constexpr unsigned int n_both = dim * dim;
+        using Row = BlockRow<dim>;
+
+        static constexpr unsigned int head_size = Row::head_size;
 
         /**
-         * The coefficients of the row $(p,j)$ for row $(p,l)$, a block for each
-         * pair of them, for some points.
+         * The coefficients of the row $(p,j)$ for row $(p,l)$, the head of a
+         * block for each pair of them, for some points.
          */
         struct Coefficients
         {
           static constexpr unsigned int n_points = max_n_short_lanes;
 
-          double blocks[n_points][n_rows][n_rows][n_both];
+          double heads[n_points][n_rows][n_rows][head_size];
 
           template <unsigned int n_bytes>
           EBSMPM_IN_EACH_TARGET void
@@ -206,7 +246,7 @@ namespace EBSMPM
             for (unsigned int j = 0; j < n_rows; ++j)
               for (unsigned int l = 0; l < n_rows; ++l)
                 {
-                  const double *of_pair[n_both];
+                  const double *of_pair[Row::block_size];
                   for (unsigned int i = 0, b = 0; i < dim; ++i)
                     for (unsigned int k = i; k < dim; ++k, ++b)
                       {
@@ -219,7 +259,7 @@ namespace EBSMPM
                 }
           }
 
-          /** The blocks of a pair of rows, from arrays over the points. */
+          /** The heads of a pair of rows, from arrays over the points. */
           template <unsigned int n_bytes>
           EBSMPM_IN_EACH_TARGET void
           fill_pair(const double *const *of_pair,
@@ -228,65 +268,63 @@ namespace EBSMPM
           {
             using L = ShortLanes<n_bytes>;
             for (unsigned int p = 0; p < n_points; p += L::n)
-              {
-                unsigned int b = 0;
-                for (; b + L::n <= n_both; b += L::n)
-                  {
-                    typename L::type v[L::n];
-                    for (unsigned int w = 0; w < L::n; ++w)
-                      v[w] = L::load(of_pair[b + w] + p);
-                    L::transpose(v);
-                    for (unsigned int w = 0; w < L::n; ++w)
-                      L::store(v[w], blocks[p + w][j][l] + b);
-                  }
-                for (; b < n_both; ++b)
+              for (unsigned int b = 0; b < head_size; b += L::n)
+                {
+                  typename L::type v[L::n];
                   for (unsigned int w = 0; w < L::n; ++w)
-                    blocks[p + w][j][l][b] = of_pair[b][p + w];
-              }
+                    v[w] = L::load(of_pair[b + w] + p);
+                  L::transpose(v);
+                  for (unsigned int w = 0; w < L::n; ++w)
+                    L::store(v[w], heads[p + w][j][l] + b);
+                }
           }
         };
 
-        /** Combine the rows of a point for one row of B. */
+        /** The heads of a row: the row of G is read number by number. */
         template <unsigned int n_bytes>
         static EBSMPM_IN_EACH_TARGET void
-        combine(const double (&blocks)[n_rows][n_both],
-                const unsigned int n,
-                const double      *G,
-                const unsigned int ldg,
-                double            *B)
+        combine_heads(const double (&heads)[n_rows][head_size],
+                      const unsigned int n,
+                      const double      *G,
+                      const unsigned int ldg,
+                      double            *B)
         {
-          using L                          = ShortLanes<n_bytes>;
-          using Vector                     = typename L::type;
-          constexpr unsigned int n_vectors = n_both / L::n;
-          constexpr unsigned int last      = n_both - 1;
+          constexpr unsigned int head_bytes = head_size * sizeof(double);
+          using L = Lanes<(n_bytes < head_bytes ? n_bytes : head_bytes)>;
+          constexpr unsigned int n_vectors = head_size / L::n;
 
-          Vector c[n_rows][n_vectors];
+          typename L::type c[n_rows][n_vectors];
           for (unsigned int l = 0; l < n_rows; ++l)
             for (unsigned int v = 0; v < n_vectors; ++v)
-              c[l][v] = L::load(blocks[l] + v * L::n);
+              c[l][v] = L::load(heads[l] + v * L::n);
 
-          for (unsigned int begin = 0; begin < n; begin += L::n)
+          for (unsigned int J = 0; J < n; ++J, ++G, B += head_size)
+            for (unsigned int v = 0; v < n_vectors; ++v)
+              {
+                typename L::type sum = c[0][v] * G[0];
+                for (unsigned int l = 1; l < n_rows; ++l)
+                  sum += c[l][v] * G[l * ldg];
+                L::store(sum, B + v * L::n);
+              }
+        }
+
+        /** The tails of a row, from the coefficients of the last pair. */
+        template <unsigned int n_bytes>
+        static EBSMPM_IN_EACH_TARGET void
+        combine_tails(const double      *c,
+                      const unsigned int ldc,
+                      const unsigned int n,
+                      const double      *G,
+                      const unsigned int ldg,
+                      double            *B)
+        {
+          using L = Lanes<n_bytes>;
+          for (unsigned int J = 0; J < n; J += L::n)
             {
-              // Some are computed twice if there are not as many left.
-              const unsigned int J = std::min(begin, n - L::n);
-              const double      *g = G + J;
-              double            *b = B + J * n_both;
-              for (unsigned int w = 0; w < L::n; ++w)
-                for (unsigned int v = 0; v < n_vectors; ++v)
-                  {
-                    Vector sum = c[0][v] * g[w];
-                    for (unsigned int l = 1; l < n_rows; ++l)
-                      sum += c[l][v] * g[l * ldg + w];
-                    L::store(sum, b + w * n_both + v * L::n);
-                  }
-              if constexpr (n_both > n_vectors * L::n)
-                {
-                  Vector sums = blocks[0][last] * L::load(g);
-                  for (unsigned int l = 1; l < n_rows; ++l)
-                    sums += blocks[l][last] * L::load(g + l * ldg);
-                  for (unsigned int w = 0; w < L::n; ++w)
-                    b[w * n_both + last] = sums[w];
-                }
+              typename L::type sums = c[0] * L::load(G + J);
+              for (unsigned int l = 1; l < n_rows; ++l)
+                sums += c[l * ldc] * L::load(G + l * ldg + J);
+              L::store(sums, B + J);
             }
         }
 
@@ -298,19 +336,29 @@ namespace EBSMPM
             const unsigned int ldc,
             const double      *G,
             const unsigned int ldg,
-            double            *B,
-            const unsigned int ldb)
+            double            *B)
         {
+          constexpr unsigned int last_pair = dim * (dim + 1) / 2 - 1;
+
           Coefficients of_some;
-          for (unsigned int begin = 0; begin < n_points;
-               begin += Coefficients::n_points)
+          for (unsigned int p = 0; p < n_points; ++p, G += n_rows * ldg)
             {
-              of_some.template fill<n_bytes>(c + begin, ldc);
-              const unsigned int n_here =
-                std::min(n_points - begin, Coefficients::n_points);
-              for (unsigned int p = 0; p < n_here; ++p, G += n_rows * ldg)
-                for (unsigned int j = 0; j < n_rows; ++j, B += ldb)
-                  combine<n_bytes>(of_some.blocks[p][j], n, G, ldg, B);
+              const unsigned int in_block = p % Coefficients::n_points;
+              if (in_block == 0)
+                of_some.template fill<n_bytes>(c + p, ldc);
+              for (unsigned int j = 0; j < n_rows; ++j, B += Row::length(n))
+                {
+                  combine_heads<n_bytes>(
+                    of_some.heads[in_block][j], n, G, ldg, B);
+                  if constexpr (Row::has_tails)
+                    combine_tails<n_bytes>(
+                      c + (last_pair * n_rows + j) * n_rows * ldc + p,
+                      ldc,
+                      n,
+                      G,
+                      ldg,
+                      B + Row::tails(n));
+                }
             }
         }
       };
@@ -318,17 +366,26 @@ namespace EBSMPM
 
 
       /** See DenseKernels::complete_symmetric(). */
-      template <int dim>
+      template <int n_components>
       struct CompleteSymmetric
       {
         template <unsigned int n_bytes>
         static EBSMPM_IN_EACH_TARGET void
-        run(const unsigned int n, const unsigned int ld, double *C)
+        run(const unsigned int n, double *C)
         {
+          using Row                = BlockRow<n_components>;
+          const unsigned int ld    = Row::length(n);
+          const unsigned int tails = Row::tails(n);
           for (unsigned int I = 1; I < n; ++I)
             for (unsigned int J = 0; J < I; ++J)
-              transpose_block<dim, n_bytes>(C + J * ld + I * dim * dim,
-                                            C + I * ld + J * dim * dim);
+              {
+                transpose_head<n_components, n_bytes>(C + J * ld +
+                                                        I * Row::head_size,
+                                                      C + I * ld +
+                                                        J * Row::head_size);
+                if constexpr (Row::has_tails)
+                  C[I * ld + tails + J] = C[J * ld + tails + I];
+              }
         }
       };
     } // namespace
@@ -343,22 +400,35 @@ namespace EBSMPM
                        const unsigned int lda,
                        const double      *B,
                        double            *C,
-                       const bool         add,
-                       const unsigned int block_size)
+                       const bool         add)
     {
-      Assert(n_columns % padding == 0,
-             ExcMessage("Rows are not padded, see DenseKernels::padding."));
+      AssertDimension(n_columns, padded(n_columns));
       run_best<TransposedProduct>(
-        n_inner, n_rows, n_columns, A, lda, B, C, add, block_size);
+        n_inner, n_rows, n_columns, A, lda, B, C, add);
     }
 
 
 
-    template <int dim>
+    template <int n_components>
     void
-    complete_symmetric(const unsigned int n, const unsigned int ld, double *C)
+    symmetric_product(const unsigned int n_inner,
+                      const unsigned int n,
+                      const double      *A,
+                      const unsigned int lda,
+                      const double      *B,
+                      double            *C,
+                      const bool         add)
     {
-      run_best<CompleteSymmetric<dim>>(n, ld, C);
+      run_best<SymmetricProduct<n_components>>(n_inner, n, A, lda, B, C, add);
+    }
+
+
+
+    template <int n_components>
+    void
+    complete_symmetric(const unsigned int n, double *C)
+    {
+      run_best<CompleteSymmetric<n_components>>(n, C);
     }
 
 
@@ -373,8 +443,7 @@ namespace EBSMPM
                  double            *C,
                  const unsigned int ldc)
     {
-      Assert(ld >= padded(n_inner),
-             ExcMessage("Rows are not padded, see DenseKernels::padding."));
+      Assert(ld >= padded(n_inner), ExcMessage("Rows are not padded."));
       run_best<RowProducts>(n_inner, n_rows, A, n_columns, B, ld, C, ldc);
     }
 
@@ -388,22 +457,44 @@ namespace EBSMPM
                  const unsigned int ldc,
                  const double      *G,
                  const unsigned int ldg,
-                 double            *B,
-                 const unsigned int ldb)
+                 double            *B)
     {
-      Assert(n >= max_n_short_lanes,
-             ExcMessage("Rows are shorter than a vector."));
-      run_best<CombineRows<dim, n_rows>>(n_points, n, c, ldc, G, ldg, B, ldb);
+      Assert(ldg >= padded(n), ExcMessage("Rows are not padded."));
+      run_best<CombineRows<dim, n_rows>>(n_points, n, c, ldc, G, ldg, B);
     }
 
 
 
     template void
-    complete_symmetric<1>(const unsigned int, const unsigned int, double *);
+    symmetric_product<1>(const unsigned int,
+                         const unsigned int,
+                         const double *,
+                         const unsigned int,
+                         const double *,
+                         double *,
+                         const bool);
     template void
-    complete_symmetric<2>(const unsigned int, const unsigned int, double *);
+    symmetric_product<2>(const unsigned int,
+                         const unsigned int,
+                         const double *,
+                         const unsigned int,
+                         const double *,
+                         double *,
+                         const bool);
     template void
-    complete_symmetric<3>(const unsigned int, const unsigned int, double *);
+    symmetric_product<3>(const unsigned int,
+                         const unsigned int,
+                         const double *,
+                         const unsigned int,
+                         const double *,
+                         double *,
+                         const bool);
+    template void
+    complete_symmetric<1>(const unsigned int, double *);
+    template void
+    complete_symmetric<2>(const unsigned int, double *);
+    template void
+    complete_symmetric<3>(const unsigned int, double *);
 
     template void
     combine_rows<2, 2>(const unsigned int,
@@ -412,8 +503,7 @@ namespace EBSMPM
                        const unsigned int,
                        const double *,
                        const unsigned int,
-                       double *,
-                       const unsigned int);
+                       double *);
     template void
     combine_rows<2, 3>(const unsigned int,
                        const unsigned int,
@@ -421,8 +511,7 @@ namespace EBSMPM
                        const unsigned int,
                        const double *,
                        const unsigned int,
-                       double *,
-                       const unsigned int);
+                       double *);
     template void
     combine_rows<3, 3>(const unsigned int,
                        const unsigned int,
@@ -430,8 +519,7 @@ namespace EBSMPM
                        const unsigned int,
                        const double *,
                        const unsigned int,
-                       double *,
-                       const unsigned int);
+                       double *);
     template void
     combine_rows<3, 4>(const unsigned int,
                        const unsigned int,
@@ -439,7 +527,6 @@ namespace EBSMPM
                        const unsigned int,
                        const double *,
                        const unsigned int,
-                       double *,
-                       const unsigned int);
+                       double *);
   } // namespace DenseKernels
 } // namespace EBSMPM

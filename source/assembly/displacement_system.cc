@@ -352,9 +352,7 @@ namespace EBSMPM
             for (unsigned int j = i; j < n; ++j)
               for (unsigned int a = 0; a < dim; ++a)
                 for (unsigned int b = 0; b < dim; ++b)
-                  local.tangent()[i * local.tangent_stride() +
-                                  (j * dim + a) * dim + b] +=
-                    B[i] * B[j] * mass[a][b];
+                  local.tangent(i, a, j, b) += B[i] * B[j] * mass[a][b];
       }
   }
 

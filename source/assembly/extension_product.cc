@@ -7,30 +7,28 @@
 //
 // -----------------------------------------------------------------------------
 
-#include <ebsmpm/base/lanes.h>
-
-#include <ebsmpm/assembly/dense_kernels.h>
 #include <ebsmpm/assembly/extension_product.h>
+
+#include <algorithm>
 
 namespace EBSMPM
 {
-  template <unsigned int block_size>
+  template <unsigned int n_components>
   void
-  ExtensionProduct<block_size>::initialize(const unsigned int n_functions,
-                                           const unsigned int max_n_columns)
+  ExtensionProduct<n_components>::initialize(const unsigned int n_functions,
+                                             const unsigned int max_n_columns)
   {
-    n           = n_functions;
-    half_stride = DenseKernels::padded(block_size * n);
+    n = n_functions;
     entries.resize(n * max_n_columns);
     column_ends.resize(max_n_columns);
-    half.resize(max_n_columns * half_stride);
-    result.resize(max_n_columns * block_size * max_n_columns);
+    half.resize(Row::length(n));
+    result.resize(max_n_columns * Row::length(max_n_columns));
   }
 
 
 
-  template <unsigned int block_size>
-  struct ExtensionProduct<block_size>::Multiply
+  template <unsigned int n_components>
+  struct ExtensionProduct<n_components>::Multiply
   {
     /**
      * Compute the sum of pieces of rows, each times a number, in @p n_vectors
@@ -54,74 +52,61 @@ namespace EBSMPM
         L::store(sums[v], to + v * L::n);
     }
 
-    /** A block of the result, with registers that become smaller. */
-    template <unsigned int n_bytes, unsigned int length>
-    static EBSMPM_IN_EACH_TARGET void
-    combine_blocks(const Entry  *entry,
-                   const Entry  *end,
-                   const double *rows,
-                   double       *to)
-    {
-      if constexpr (length > 0)
-        {
-          constexpr unsigned int n_lanes   = n_bytes / sizeof(double);
-          constexpr unsigned int n_vectors = length / n_lanes;
-          if constexpr (n_vectors > 0)
-            combine<n_bytes, n_vectors>(entry, end, rows, block_size, to);
-          if constexpr (length % n_lanes > 0)
-            combine_blocks<n_bytes / 2, length % n_lanes>(
-              entry, end, rows + n_vectors * n_lanes, to + n_vectors * n_lanes);
-        }
-    }
-
     template <unsigned int n_bytes>
     static EBSMPM_IN_EACH_TARGET void
-    run(ExtensionProduct  *product,
-        const unsigned int m,
-        const double      *K,
-        const unsigned int ldk)
+    run(ExtensionProduct *product, const unsigned int m, const double *K)
     {
       constexpr unsigned int n_lanes   = Lanes<n_bytes>::n;
       constexpr unsigned int n_vectors = 4;
+      constexpr unsigned int head_size = Row::head_size;
+      constexpr unsigned int head_bytes =
+        std::min<unsigned int>(head_size * sizeof(double), n_bytes);
 
+      const unsigned int  n       = product->n;
       const Entry        *entries = product->entries.data();
       const unsigned int *ends    = product->column_ends.data();
-      const unsigned int  length  = product->half_stride;
-      for (unsigned int i = 0; i < m; ++i)
+      const unsigned int  length  = Row::length(n);
+      double *const       half    = product->half.data();
+      double             *to      = product->result.data();
+      for (unsigned int i = 0; i < m; ++i, to += Row::length(m))
         {
           const Entry *begin = entries + (i == 0 ? 0 : ends[i - 1]);
           const Entry *end   = entries + ends[i];
-          double      *half  = product->half.data() + i * length;
           unsigned int J     = 0;
           for (; J + n_vectors * n_lanes <= length; J += n_vectors * n_lanes)
-            combine<n_bytes, n_vectors>(begin, end, K + J, ldk, half + J);
+            combine<n_bytes, n_vectors>(begin, end, K + J, length, half + J);
           for (; J < length; J += n_lanes)
-            combine<n_bytes, 1>(begin, end, K + J, ldk, half + J);
+            combine<n_bytes, 1>(begin, end, K + J, length, half + J);
 
           // All of this row of E^T K is there, and its product with E needs no
           // other.
-          double *to = product->result.data() + i * m * block_size;
           for (unsigned int j = i; j < m; ++j)
-            combine_blocks<n_bytes, block_size>(entries +
-                                                  (j == 0 ? 0 : ends[j - 1]),
-                                                entries + ends[j],
-                                                half,
-                                                to + j * block_size);
+            {
+              begin = entries + (j == 0 ? 0 : ends[j - 1]);
+              end   = entries + ends[j];
+              if constexpr (head_size > 0)
+                combine<head_bytes, head_size * sizeof(double) / head_bytes>(
+                  begin, end, half, head_size, to + j * head_size);
+              if constexpr (Row::has_tails)
+                {
+                  double sum = 0.;
+                  for (; begin != end; ++begin)
+                    sum += begin->value * half[Row::tails(n) + begin->row];
+                  to[Row::tails(m) + j] = sum;
+                }
+            }
         }
     }
   };
 
 
 
-  template <unsigned int block_size>
+  template <unsigned int n_components>
   const double *
-  ExtensionProduct<block_size>::compute(const double      *E,
-                                        const unsigned int m,
-                                        const double      *K,
-                                        const unsigned int ldk)
+  ExtensionProduct<n_components>::compute(const double      *E,
+                                          const unsigned int m,
+                                          const double      *K)
   {
-    Assert(ldk >= half_stride,
-           ExcMessage("Rows are not padded, see DenseKernels::padding."));
     unsigned int n_entries = 0;
     for (unsigned int i = 0; i < m; ++i)
       {
@@ -130,13 +115,13 @@ namespace EBSMPM
             entries[n_entries++] = {E[I * m + i], I};
         column_ends[i] = n_entries;
       }
-    run_best<Multiply>(this, m, K, ldk);
+    run_best<Multiply>(this, m, K);
     return result.data();
   }
 
 
 
   template class ExtensionProduct<1>;
-  template class ExtensionProduct<4>;
-  template class ExtensionProduct<9>;
+  template class ExtensionProduct<2>;
+  template class ExtensionProduct<3>;
 } // namespace EBSMPM

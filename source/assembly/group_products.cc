@@ -20,9 +20,9 @@ namespace EBSMPM
                                          const unsigned int max_n_points)
   {
     const unsigned int n_points = std::max(max_n_points, 1U);
-    const unsigned int c_stride = DenseKernels::padded(dim * dim * n_functions);
+    const unsigned int c_stride = BlockRow<dim>::length(n_functions);
     n                           = n_functions;
-    x_stride                    = DenseKernels::padded(n);
+    x_stride                    = padded(n);
     X.resize_fast(n_rows * n_points * x_stride);
     X.fill(0.);
     cX.resize_fast(n_rows * n_points * c_stride);
@@ -78,23 +78,15 @@ namespace EBSMPM
                                           const unsigned int ldc,
                                           LocalSystem<dim>  &local)
   {
-    DenseKernels::combine_rows<dim, n_rows>(n_points,
-                                            n,
-                                            c,
-                                            ldc,
-                                            X.data(),
-                                            x_stride,
-                                            cX.data(),
-                                            local.tangent_stride());
-    DenseKernels::transposed_product(n_rows * n_points,
-                                     n,
-                                     local.tangent_stride(),
-                                     X.data(),
-                                     x_stride,
-                                     cX.data(),
-                                     local.tangent(),
-                                     local.begin_tangent(),
-                                     dim * dim);
+    DenseKernels::combine_rows<dim, n_rows>(
+      n_points, n, c, ldc, X.data(), x_stride, cX.data());
+    DenseKernels::symmetric_product<dim>(n_rows * n_points,
+                                         n,
+                                         X.data(),
+                                         x_stride,
+                                         cX.data(),
+                                         local.tangent(),
+                                         local.begin_tangent());
   }
 
 

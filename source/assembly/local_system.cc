@@ -28,12 +28,11 @@ namespace EBSMPM
 
     // The unknowns of a group without constraints are the coefficients.
     const unsigned int m = std::max(n, max_n_functions);
-    short_stride         = DenseKernels::padded(n);
-    stride               = DenseKernels::padded(dim * dim * n);
+    short_stride         = padded(n);
     coefficient_rows.resize_fast(dim * short_stride);
     coefficient_rows.fill(0.);
     residual_rows.resize_fast(dim * short_stride);
-    tangent_rows.resize(n * stride);
+    tangent_rows.resize(n * BlockRow<dim>::length(n));
     extension_product.initialize(n, m);
   }
 
@@ -145,14 +144,12 @@ namespace EBSMPM
   {
     if (const double *E = groups->extension(*group))
       {
-        DenseKernels::complete_symmetric<dim>(n, stride, tangent_rows.data());
-        const unsigned int m = group->n_functions;
+        DenseKernels::complete_symmetric<dim>(n, tangent());
         matrix.add(list,
-                   extension_product.compute(E, m, tangent_rows.data(), stride),
-                   dim * dim * m);
+                   extension_product.compute(E, group->n_functions, tangent()));
       }
     else
-      matrix.add(list, tangent_rows.data(), stride);
+      matrix.add(list, tangent());
   }
 
 

@@ -53,11 +53,11 @@ namespace EBSMPM
 
 
   void
-  resize_in_large_pages(std::vector<double> &array, const std::size_t size)
+  resize_in_large_pages(AlignedVector<double> &array, const std::size_t size)
   {
     if (size > array.capacity())
       {
-        array = std::vector<double>();
+        array.clear();
         array.reserve(size);
         // Before the first number is written: this is when pages are taken.
         advise(array.data(), size, Advice::huge_page);

@@ -7,8 +7,8 @@
 //
 // -----------------------------------------------------------------------------
 
+#include <ebsmpm/base/block_row.h>
 #include <ebsmpm/base/constant.h>
-#include <ebsmpm/base/lanes.h>
 
 #include <ebsmpm/lac/system_matrix.h>
 
@@ -23,9 +23,6 @@ namespace EBSMPM
 {
   namespace
   {
-    /** Number of doubles in a cache line. */
-    constexpr unsigned int doubles_per_line = 8;
-
     /** In bytes: open rows that fit in there need not be fetched. */
     constexpr std::size_t size_of_near_caches = 1U << 20;
 
@@ -40,13 +37,11 @@ namespace EBSMPM
     {
       std::size_t k = 0;
 #ifdef __SSE2__
-      constexpr unsigned int line = doubles_per_line * sizeof(double),
-                             pair = 16;
+      constexpr unsigned int line = max_n_lanes * sizeof(double), pair = 16;
       for (; k < n && reinterpret_cast<std::uintptr_t>(to + k) % line != 0; ++k)
         to[k] = from[k];
-      for (; k + doubles_per_line <= n; k += doubles_per_line)
-        for (unsigned int l = 0; l < doubles_per_line;
-             l += pair / sizeof(double))
+      for (; k + max_n_lanes <= n; k += max_n_lanes)
+        for (unsigned int l = 0; l < max_n_lanes; l += pair / sizeof(double))
           _mm_stream_pd(to + k + l, _mm_loadu_pd(from + k + l));
 #endif
       std::copy(from + k, from + n, to + k);
@@ -76,21 +71,20 @@ namespace EBSMPM
 
 
   void
-  SystemMatrix::add(const unsigned int list,
-                    const double      *values,
-                    const unsigned int stride)
+  SystemMatrix::add(const unsigned int list, const double *values)
   {
     AssertIndexRange(list + 1, list_begins.size());
     Assert(list >= next_list, ExcMessage("Lists have to be in their order."));
     for (; next_list < list; ++next_list)
-      add_list(next_list, nullptr, 0);
-    add_list(next_list++, values, stride);
+      add_list(next_list, nullptr);
+    add_list(next_list++, values);
 
     // The next list is most often the next one to be added.
     const bool are_rows_far =
       open_rows.size() * sizeof(double) > size_of_near_caches;
     if (are_rows_far && next_list + 1 < list_begins.size())
-      fetch_rows(next_list);
+      with_constant(n_components,
+                    [&](const auto nc) { fetch_rows<nc()>(next_list); });
   }
 
 
@@ -147,33 +141,55 @@ namespace EBSMPM
     template <unsigned int n_components>
     struct AddRuns
     {
-      static constexpr unsigned int block_size = n_components * n_components;
+      using Row = BlockRow<n_components>;
 
       /** What quadratic splines have most of. */
       static constexpr unsigned int frequent_size = 3;
 
+      template <unsigned int n_bytes>
+      static EBSMPM_IN_EACH_TARGET void
+      add_blocks(const unsigned int n,
+                 const double      *heads,
+                 const double      *tails,
+                 double            *to_heads,
+                 double            *to_tails)
+      {
+        add_array<n_bytes>(n * Row::head_size, heads, to_heads);
+        if constexpr (Row::has_tails)
+          add_array<n_bytes>(n, tails, to_tails);
+      }
+
+      /**
+       * @param open_tails where the tails begin in the rows that are added to
+       */
       template <unsigned int n_bytes, typename Run>
       static EBSMPM_IN_EACH_TARGET void
       run(const unsigned int n,
           const double      *values,
-          const unsigned int stride,
           const Run         *run,
-          double *const     *rows)
+          double *const     *rows,
+          const std::size_t  open_tails)
       {
-        for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < n; ++i, values += Row::length(n))
           for (unsigned int j = i; j < n; j += run->size, ++run)
             {
-              const double *from = values + i * stride + j * block_size;
-              double       *to =
-                rows[run->is_transposed ? j : i] + run->place * block_size;
+              const double *heads    = values + j * Row::head_size;
+              const double *tails    = values + Row::tails(n) + j;
+              double *const row      = rows[run->is_transposed ? j : i];
+              double       *to_heads = row + run->place * Row::head_size;
+              double       *to_tails = row + open_tails + run->place;
               if (run->size == frequent_size)
-                add_array<n_bytes>(frequent_size * block_size, from, to);
+                add_blocks<n_bytes>(
+                  frequent_size, heads, tails, to_heads, to_tails);
               else if (!run->is_transposed)
-                add_array<n_bytes>(run->size * block_size, from, to);
+                add_blocks<n_bytes>(
+                  run->size, heads, tails, to_heads, to_tails);
               else
-                for (unsigned int a = 0; a < n_components; ++a)
-                  for (unsigned int b = 0; b < n_components; ++b)
-                    to[a * n_components + b] += from[b * n_components + a];
+                {
+                  double transposed[Row::head_size + 1];
+                  transpose_head<n_components, n_bytes>(heads, transposed);
+                  add_blocks<n_bytes>(1, transposed, tails, to_heads, to_tails);
+                }
             }
       }
     };
@@ -184,21 +200,28 @@ namespace EBSMPM
     template <unsigned int n_components>
     struct CopyMirrors
     {
+      using Row = BlockRow<n_components>;
+
       template <unsigned int n_bytes, typename Mirror>
       static EBSMPM_IN_EACH_TARGET void
       run(const unsigned int  n,
           const Mirror       *mirror,
-          const double       *blocks,
+          const double       *row,
           double             *open_rows,
           const std::size_t   slot_size,
+          const std::size_t   open_tails,
           const unsigned int *slots)
       {
-        constexpr unsigned int block_size = n_components * n_components;
         for (unsigned int k = 0; k < n; ++k, ++mirror)
-          transpose_block<n_components, n_bytes>(
-            blocks + mirror->from * block_size,
-            open_rows + slots[mirror->function] * slot_size +
-              mirror->to * block_size);
+          {
+            double *const to = open_rows + slots[mirror->function] * slot_size;
+            transpose_head<n_components, n_bytes>(row + mirror->from *
+                                                          Row::head_size,
+                                                  to + mirror->to *
+                                                         Row::head_size);
+            if constexpr (Row::has_tails)
+              to[open_tails + mirror->to] = row[open_tails + mirror->from];
+          }
       }
     };
 
@@ -208,41 +231,57 @@ namespace EBSMPM
     template <unsigned int n_components>
     struct SplitRow
     {
+      using Row = BlockRow<n_components>;
+
       template <unsigned int n_bytes>
       static EBSMPM_IN_EACH_TARGET void
-      run(const unsigned int n_blocks, const double *from, double *to)
+      run(const unsigned int n_blocks,
+          const double      *heads,
+          const double      *tails,
+          double            *to)
       {
-        // Three numbers are copied with another one, which is overwritten by
-        // what comes next.
         const unsigned int length = n_blocks * n_components;
         unsigned int       k      = 0;
+        // Three numbers are copied with another one, which is overwritten by
+        // what comes next.
         if constexpr (n_components == 3 && n_bytes >= 32)
           for (; k + 1 < n_blocks; ++k, to += n_components)
-            for (unsigned int a = 0; a < n_components;
-                 ++a, from += n_components)
-              Lanes<32>::store(Lanes<32>::load(from), to + a * length);
+            {
+              const double *head = heads + k * Row::head_size;
+              Lanes<32>::store(Lanes<32>::load(head), to);
+              Lanes<32>::store(Lanes<32>::load(head + 3), to + length);
+              Lanes<16>::store(Lanes<16>::load(head + 6), to + 2 * length);
+              to[2 * length + 2] = tails[k];
+            }
         for (; k < n_blocks; ++k, to += n_components)
-          for (unsigned int a = 0; a < n_components; ++a, from += n_components)
-            for (unsigned int b = 0; b < n_components; ++b)
-              to[a * length + b] = from[b];
+          for (unsigned int e = 0; e < Row::block_size; ++e)
+            to[e / n_components * length + e % n_components] =
+              e < Row::head_size ? heads[k * Row::head_size + e] : tails[k];
       }
     };
   } // namespace
 
 
 
+  template <unsigned int nc>
   void
   SystemMatrix::begin_row(const unsigned int function)
   {
-    const unsigned int block_size = n_components * n_components;
-    if (wanted == nullptr || needed[function])
-      std::fill(open_row(function) + block_size * first_places[function],
-                open_row(function) + block_size * row_length(function),
-                0.);
+    if (wanted != nullptr && !needed[function])
+      return;
+    using Row = BlockRow<nc>;
+
+    const unsigned int first = first_places[function];
+    const unsigned int size  = row_length(function) - first;
+    double *const      row   = open_row(function);
+    std::fill_n(row + first * Row::head_size, size * Row::head_size, 0.);
+    if constexpr (Row::has_tails)
+      std::fill_n(row + open_tails + first, size, 0.);
   }
 
 
 
+  template <unsigned int nc>
   void
   SystemMatrix::close_row(const unsigned int function)
   {
@@ -251,28 +290,60 @@ namespace EBSMPM
 
     const double *const blocks = open_row(function);
     const std::size_t   begin  = mirror_begins[function];
-    with_constant(n_components, [&](const auto nc) {
-      run_best<CopyMirrors<nc()>>(mirror_begins[function + 1] - begin,
-                                  mirrors.data() + begin,
-                                  blocks,
-                                  open_rows.data(),
-                                  slot_size,
-                                  slots.data());
-      if (wanted != nullptr && !(*wanted)[function])
-        return;
+    run_best<CopyMirrors<nc>>(mirror_begins[function + 1] - begin,
+                              mirrors.data() + begin,
+                              blocks,
+                              open_rows.data(),
+                              slot_size,
+                              open_tails,
+                              slots.data());
+    if (wanted != nullptr && !(*wanted)[function])
+      return;
 
-      const std::size_t length   = nc() * nc() * row_length(function);
-      const bool        is_large = this->is_large();
-      double *const     to       = row(function);
-      double *const     split    = is_large ? split_row.data() : to;
-      run_best<SplitRow<nc()>>(row_length(function), blocks, split);
-      if (is_large)
-        copy_past_caches(length, split, to);
-    });
+    const bool    is_large = this->is_large();
+    double *const to       = row(function);
+    double *const split    = is_large ? split_row.data() : to;
+    run_best<SplitRow<nc>>(row_length(function),
+                           blocks,
+                           blocks + open_tails,
+                           split);
+    if (is_large)
+      copy_past_caches(nc * nc * row_length(function), split, to);
   }
 
 
 
+  namespace
+  {
+    /**
+     * Ask the memory for some blocks of an open row. A compiler that does not
+     * inline it at once takes this for a function without an effect.
+     */
+    template <unsigned int n_components>
+    EBSMPM_IN_EACH_TARGET void
+    fetch_blocks(const double      *row,
+                 const std::size_t  open_tails,
+                 const unsigned int place,
+                 const unsigned int size)
+    {
+      using Row = BlockRow<n_components>;
+
+      const double       *head = row + place * Row::head_size;
+      const double *const end  = head + size * Row::head_size;
+      for (; head < end; head += max_n_lanes)
+        __builtin_prefetch(head, 1, 2);
+      if constexpr (Row::has_tails)
+        {
+          const double *const tail = row + open_tails + place;
+          __builtin_prefetch(tail, 1, 2);
+          __builtin_prefetch(tail + size - 1, 1, 2);
+        }
+    }
+  } // namespace
+
+
+
+  template <unsigned int nc>
   void
   SystemMatrix::fetch_rows(const unsigned int list)
   {
@@ -281,64 +352,51 @@ namespace EBSMPM
     for (unsigned int i = 0; i < n; ++i)
       row_pointers[i] = open_row(f[i]);
 
-    // A block of nine numbers is in two cache lines.
-    const unsigned int block_size  = n_components * n_components;
-    const auto         fetch_block = [block_size](const double *block) {
-      __builtin_prefetch(block, 1, 2);
-      __builtin_prefetch(block + block_size - 1, 1, 2);
-    };
     const Run *run = runs.data() + run_begins[list];
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = i; j < n; j += run->size, ++run)
-        {
-          const double *number =
-            row_pointers[run->is_transposed ? j : i] + run->place * block_size;
-          const double *const end = number + run->size * block_size;
-          for (; number < end; number += doubles_per_line)
-            __builtin_prefetch(number, 1, 2);
-          __builtin_prefetch(end - 1, 1, 2);
-        }
+        fetch_blocks<nc>(row_pointers[run->is_transposed ? j : i],
+                         open_tails,
+                         run->place,
+                         run->size);
     for (unsigned int i = 0; i < n; ++i)
       if (last_lists[f[i]] == list)
         {
-          const double *const begin = open_row(f[i]);
-          const double *const end   = begin + first_places[f[i]] * block_size;
-          for (const double *line = begin; line < end; line += doubles_per_line)
-            __builtin_prefetch(line, 0, 2);
+          fetch_blocks<nc>(row_pointers[i], open_tails, 0, first_places[f[i]]);
           for (std::size_t k = mirror_begins[f[i]]; k < mirror_begins[f[i] + 1];
                ++k)
-            fetch_block(open_row(mirrors[k].function) +
-                        mirrors[k].to * block_size);
+            fetch_blocks<nc>(open_row(mirrors[k].function),
+                             open_tails,
+                             mirrors[k].to,
+                             1);
         }
   }
 
 
 
   void
-  SystemMatrix::add_list(const unsigned int list,
-                         const double      *values,
-                         const unsigned int stride)
+  SystemMatrix::add_list(const unsigned int list, const double *values)
   {
     const unsigned int  n = list_begins[list + 1] - list_begins[list];
     const unsigned int *f = list_functions.data() + list_begins[list];
 
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        row_pointers[i] = open_row(f[i]);
-        if (first_lists[f[i]] == list)
-          begin_row(f[i]);
-      }
-    if (values != nullptr)
-      with_constant(n_components, [&](const auto nc) {
+    with_constant(n_components, [&](const auto nc) {
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          row_pointers[i] = open_row(f[i]);
+          if (first_lists[f[i]] == list)
+            begin_row<nc()>(f[i]);
+        }
+      if (values != nullptr)
         run_best<AddRuns<nc()>>(n,
                                 values,
-                                stride,
                                 runs.data() + run_begins[list],
-                                row_pointers.data());
-      });
-    for (unsigned int i = 0; i < n; ++i)
-      if (last_lists[f[i]] == list)
-        close_row(f[i]);
+                                row_pointers.data(),
+                                open_tails);
+      for (unsigned int i = 0; i < n; ++i)
+        if (last_lists[f[i]] == list)
+          close_row<nc()>(f[i]);
+    });
   }
 
 

@@ -207,7 +207,7 @@ namespace EBSMPM
   {
     // Lists without a local matrix.
     if (next_list + 1 < list_begins.size())
-      add(list_begins.size() - 2, nullptr, 0);
+      add(list_begins.size() - 2, nullptr);
 
     // What has been written past the caches is to be seen by other threads,
     // too.

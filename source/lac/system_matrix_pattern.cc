@@ -10,6 +10,8 @@
 // The part of SystemMatrix that finds out where things belong: rows, the order
 // in which they are closed, mirrors, and runs.
 
+#include <ebsmpm/base/block_row.h>
+#include <ebsmpm/base/constant.h>
 #include <ebsmpm/base/large_pages.h>
 
 #include <ebsmpm/lac/system_matrix.h>
@@ -366,9 +368,12 @@ namespace EBSMPM
         max_size =
           std::max<unsigned int>(max_size, list_begins[l + 1] - list_begins[l]);
       }
-    slot_size = n_components * n_components * width;
+    with_constant(n_components, [&](const auto nc) {
+      slot_size  = BlockRow<nc()>::length(width);
+      open_tails = BlockRow<nc()>::tails(width);
+    });
     resize_in_large_pages(open_rows, n_slots * slot_size);
     row_pointers.resize(max_size);
-    split_row.resize(slot_size);
+    split_row.resize(n_components * n_components * width);
   }
 } // namespace EBSMPM

@@ -20,10 +20,6 @@
 
 #include "../instruction_sets.h"
 
-using DenseKernels::padded;
-
-
-
 /** Rows of numbers, behind which there is room for the padding. */
 struct Rows
 {
@@ -31,7 +27,7 @@ struct Rows
        const unsigned int n_columns,
        const double       seed = 0.)
     : stride(padded(n_columns))
-    , numbers(n_rows * stride + DenseKernels::padding, 0.)
+    , numbers(n_rows * stride, 0.)
   {
     if (seed != 0.)
       for (unsigned int i = 0; i < n_rows; ++i)
@@ -145,15 +141,15 @@ template <int dim, int n_rows>
 void
 test_tangent(const unsigned int n)
 {
-  constexpr unsigned int block_size = dim * dim;
-  Error                  combination, tangent;
+  using Row = BlockRow<dim>;
+  Error combination, tangent;
   for (const unsigned int n_points : {1U, 4U, 9U})
     for_each_instruction_set([&]() {
       const unsigned int ldc =
         (n_points / max_n_short_lanes + 1) * max_n_short_lanes;
       Rows X(n_rows * n_points, n, 3.);
-      Rows cX(n_rows * n_points, block_size * n);
-      Rows K(n, block_size * n);
+      Rows cX(n_rows * n_points, Row::length(n));
+      Rows K(n, Row::length(n));
 
       // c_{ijkl} = c_{klij}.
       const auto c = [](const unsigned int p,
@@ -172,30 +168,18 @@ test_tangent(const unsigned int n)
               for (unsigned int p = 0; p < ldc; ++p)
                 coefficients.push_back(c(p, i, j, k, l));
 
-      DenseKernels::combine_rows<dim, n_rows>(n_points,
-                                              n,
-                                              coefficients.data(),
-                                              ldc,
-                                              X.data(),
-                                              X.stride,
-                                              cX.data(),
-                                              cX.stride);
-      DenseKernels::transposed_product(n_rows * n_points,
-                                       n,
-                                       K.stride,
-                                       X.data(),
-                                       X.stride,
-                                       cX.data(),
-                                       K.data(),
-                                       false,
-                                       block_size);
-      DenseKernels::complete_symmetric<dim>(n, K.stride, K.data());
+      DenseKernels::combine_rows<dim, n_rows>(
+        n_points, n, coefficients.data(), ldc, X.data(), X.stride, cX.data());
+      for (const bool add : {false, true})
+        DenseKernels::symmetric_product<dim>(
+          n_rows * n_points, n, X.data(), X.stride, cX.data(), K.data(), add);
+      DenseKernels::complete_symmetric<dim>(n, K.data());
 
       for (unsigned int J = 0; J < n; ++J)
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int k = 0; k < dim; ++k)
             {
-              const unsigned int  column = (J * dim + i) * dim + k;
+              const unsigned int  column = Row::place(n, J, i, k);
               std::vector<double> sums(n, 0.);
               for (unsigned int p = 0; p < n_points; ++p)
                 for (unsigned int j = 0; j < n_rows; ++j)
@@ -208,7 +192,7 @@ test_tangent(const unsigned int n)
                       sums[I] += X(p * n_rows + j, I) * sum;
                   }
               for (unsigned int I = 0; I < n; ++I)
-                tangent.add(K(I, column), sums[I]);
+                tangent.add(K(I, column), 2. * sums[I]);
             }
     });
   deallog << dim << "d, " << n_rows << " rows, " << n

@@ -13,6 +13,8 @@
 // with all instruction sets of the machine. Of the local matrices, one half is
 // given, and the functions of every other window go backwards.
 
+#include <ebsmpm/base/block_row.h>
+
 #include <ebsmpm/lac/system_matrix.h>
 
 #include <deal.II/base/partitioner.h>
@@ -57,11 +59,11 @@ entry(const unsigned int            factor,
 
 
 
+template <unsigned int nc>
 class Problem
 {
 public:
-  explicit Problem(const unsigned int n_components)
-    : nc(n_components)
+  Problem()
   {
     const unsigned int n    = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
@@ -116,8 +118,10 @@ public:
                   expected(nc * i + a, nc * j + b) +=
                     entry(factor, nc * i + a, nc * j + b);
 
-    const unsigned int  stride = width * width * nc * nc + 3;
-    std::vector<double> local(width * width * stride);
+    using Row                     = BlockRow<nc>;
+    constexpr unsigned int size   = width * width;
+    constexpr unsigned int stride = Row::length(size);
+    std::vector<double>    local(size * stride);
     system.begin(wanted);
     for (unsigned int l = 0; l < windows.size(); ++l)
       if (*std::min_element(windows[l].begin(), windows[l].end()) % n_y %
@@ -130,9 +134,9 @@ public:
             for (unsigned int j = i; j < f.size(); ++j)
               for (unsigned int a = 0; a < nc; ++a)
                 for (unsigned int b = 0; b < nc; ++b)
-                  local[i * stride + (j * nc + a) * nc + b] =
+                  local[i * stride + Row::place(size, j, a, b)] =
                     entry(factor, nc * f[i] + a, nc * f[j] + b);
-          system.add(l, local.data(), stride);
+          system.add(l, local.data());
         }
     system.compress();
 
@@ -150,12 +154,54 @@ public:
     return Utilities::MPI::max(error, MPI_COMM_WORLD);
   }
 
-  const unsigned int                                nc;
   std::unique_ptr<Utilities::MPI::Partitioner>      functions;
   std::vector<std::vector<types::global_dof_index>> windows;
   std::vector<unsigned int>                         numbers;
   SystemMatrix                                      system;
 };
+
+
+
+template <unsigned int nc>
+void
+test()
+{
+  const auto verdict = [](const bool is_good) {
+    return is_good ? "yes" : "FAILED";
+  };
+  deallog << "components: " << nc << std::endl;
+  Problem<nc>        problem;
+  const unsigned int n_all = problem.windows.size();
+
+  bool is_new = problem.reinit(n_all);
+  is_new      = is_new && !problem.reinit(n_all);
+  deallog << "  built once: " << verdict(is_new)
+          << ", entries: " << problem.system.matrix().n_nonzero_elements()
+          << std::endl;
+  bool is_complete = true;
+  for_each_instruction_set(
+    [&]() { is_complete &= (problem.assemble(1, 1) < 1e-13); });
+  deallog << "  complete: " << verdict(is_complete) << std::endl;
+  deallog << "  begun anew: " << verdict(problem.assemble(2, 1) < 1e-13)
+          << std::endl;
+  deallog << "  some left out: " << verdict(problem.assemble(3, 2) < 1e-13)
+          << std::endl;
+
+  const unsigned int n_known = problem.functions->locally_owned_size() +
+                               problem.functions->n_ghost_indices();
+  std::vector<bool> wanted(n_known);
+  for (unsigned int f = 0; f < n_known; ++f)
+    wanted[f] = (problem.functions->local_to_global(f) % 4 == 0);
+  deallog << "  some rows only: "
+          << verdict(problem.assemble(4, 1, &wanted) < 1e-13) << std::endl;
+
+  // One process has a list less, and all know.
+  const bool has_less = (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+  is_new              = problem.reinit(n_all - (has_less ? 1 : 0));
+  deallog << "  built again: " << verdict(is_new)
+          << ", entries: " << problem.system.matrix().n_nonzero_elements()
+          << std::endl;
+}
 
 
 
@@ -165,43 +211,7 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   mpi_initlog();
 
-  const auto verdict = [](const bool is_good) {
-    return is_good ? "yes" : "FAILED";
-  };
-  for (unsigned int nc = 1; nc <= 3; ++nc)
-    {
-      deallog << "components: " << nc << std::endl;
-      Problem            problem(nc);
-      const unsigned int n_all = problem.windows.size();
-
-      bool is_new = problem.reinit(n_all);
-      is_new      = is_new && !problem.reinit(n_all);
-      deallog << "  built once: " << verdict(is_new)
-              << ", entries: " << problem.system.matrix().n_nonzero_elements()
-              << std::endl;
-      bool is_complete = true;
-      for_each_instruction_set(
-        [&]() { is_complete &= (problem.assemble(1, 1) < 1e-13); });
-      deallog << "  complete: " << verdict(is_complete) << std::endl;
-      deallog << "  begun anew: " << verdict(problem.assemble(2, 1) < 1e-13)
-              << std::endl;
-      deallog << "  some left out: " << verdict(problem.assemble(3, 2) < 1e-13)
-              << std::endl;
-
-      const unsigned int n_known = problem.functions->locally_owned_size() +
-                                   problem.functions->n_ghost_indices();
-      std::vector<bool> wanted(n_known);
-      for (unsigned int f = 0; f < n_known; ++f)
-        wanted[f] = (problem.functions->local_to_global(f) % 4 == 0);
-      deallog << "  some rows only: "
-              << verdict(problem.assemble(4, 1, &wanted) < 1e-13) << std::endl;
-
-      // One process has a list less, and all know.
-      const bool has_less =
-        (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
-      is_new = problem.reinit(n_all - (has_less ? 1 : 0));
-      deallog << "  built again: " << verdict(is_new)
-              << ", entries: " << problem.system.matrix().n_nonzero_elements()
-              << std::endl;
-    }
+  test<1>();
+  test<2>();
+  test<3>();
 }

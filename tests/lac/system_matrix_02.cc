@@ -11,6 +11,8 @@
 // entries where they belong, with rows that begin anywhere in a cache line, and
 // with all instruction sets of the machine.
 
+#include <ebsmpm/base/block_row.h>
+
 #include <ebsmpm/lac/system_matrix.h>
 
 #include <deal.II/base/partitioner.h>
@@ -50,19 +52,20 @@ main(int argc, char **argv)
   system.reinit(functions, nc, {{list.data(), n_functions}});
   deallog << "entries: " << system.matrix().n_nonzero_elements() << std::endl;
 
-  const unsigned int  stride = nc * nc * n_functions;
+  using Row                  = BlockRow<nc>;
+  const unsigned int  stride = Row::length(n_functions);
   std::vector<double> values(n_functions * stride);
   for (unsigned int i = 0; i < n_functions; ++i)
     for (unsigned int j = 0; j < n_functions; ++j)
       for (unsigned int a = 0; a < nc; ++a)
         for (unsigned int b = 0; b < nc; ++b)
-          values[i * stride + (j * nc + a) * nc + b] =
+          values[i * stride + Row::place(n_functions, j, a, b)] =
             entry(i * nc + a, j * nc + b);
 
   unsigned int n_wrong = 0;
   for_each_instruction_set([&]() {
     system.begin();
-    system.add(0, values.data(), stride);
+    system.add(0, values.data());
     system.compress();
     for (const auto &found : system.matrix())
       n_wrong += (found.value() != entry(found.row(), found.column()));

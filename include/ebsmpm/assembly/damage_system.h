@@ -147,7 +147,6 @@ namespace EBSMPM
                const typename PointGroups<dim>::Group &group,
                const unsigned int                      list,
                double                                 *matrix,
-               const unsigned int                      stride,
                const double                           *vector,
                LA::FieldVector                        &right_hand_side);
 

@@ -10,7 +10,7 @@
 #ifndef ebsmpm_assembly_dense_kernels_h
 #define ebsmpm_assembly_dense_kernels_h
 
-#include <ebsmpm/base/config.h>
+#include <ebsmpm/base/block_row.h>
 
 namespace EBSMPM
 {
@@ -21,35 +21,14 @@ namespace EBSMPM
   namespace DenseKernels
   {
     /**
-     * Row lengths of the arrays below must be multiples of this number of
-     * doubles; the padding must be zero.
-     */
-    constexpr unsigned int padding = 8;
-
-    /** Return @p n rounded up to a multiple of #padding. */
-    inline constexpr unsigned int
-    padded(const unsigned int n)
-    {
-      return (n + padding - 1) / padding * padding;
-    }
-
-    /**
-     * Compute $C = A^T B$, or add it to $C$: the product that every stiffness
-     * matrix is made of. The sum over all points of a cell is the inner
-     * dimension.
+     * Compute $C = A^T B$, or add it to $C$.
      *
      * @param n_inner number of rows of @p A and @p B
      * @param n_rows number of columns of @p A, rows of @p C
-     * @param n_columns number of columns of @p B and @p C, a multiple of
-     *   #padding
+     * @param n_columns number of columns of @p B and @p C, padded()
      * @param A row by row, rows being @p lda apart
-     * @param B row by row, rows being @p n_columns apart
-     * @param C row by row, rows being @p n_columns apart
+     * @param B, @p C row by row, rows being @p n_columns apart
      * @param add whether to add to @p C instead of overwriting it
-     * @param block_size If not zero, columns of @p C are blocks of this size,
-     *   one per row, and those before the block of the row itself are not
-     *   wanted (but some of them computed): enough for a symmetric matrix, see
-     *   complete_symmetric().
      */
     void
     transposed_product(const unsigned int n_inner,
@@ -59,24 +38,45 @@ namespace EBSMPM
                        const unsigned int lda,
                        const double      *B,
                        double            *C,
-                       const bool         add        = false,
-                       const unsigned int block_size = 0);
+                       const bool         add = false);
 
     /**
-     * Complete a symmetric matrix of <tt>dim x dim</tt> blocks, of which those
-     * on and above the diagonal are there: <tt>C[I*ld + (J*dim+i)*dim+k]</tt>
-     * couples component $i$ of function $I$ with component $k$ of function $J$.
+     * Compute $C = A^T B$, or add it to $C$, if $C$ is symmetric and its rows
+     * are rows of blocks, see BlockRow: the product that every stiffness matrix
+     * is made of. The sum over all points of a cell is the inner dimension.
+     * Blocks before the diagonal are not wanted (but some of them computed),
+     * see complete_symmetric().
+     *
+     * @param n_inner number of rows of @p A and @p B
+     * @param n number of rows of @p C, and of blocks in a row of @p B and @p C
+     * @param A row by row, rows being @p lda apart
+     * @param B, @p C row by row
+     * @param add whether to add to @p C instead of overwriting it
      */
-    template <int dim>
+    template <int n_components>
     void
-    complete_symmetric(const unsigned int n, const unsigned int ld, double *C);
+    symmetric_product(const unsigned int n_inner,
+                      const unsigned int n,
+                      const double      *A,
+                      const unsigned int lda,
+                      const double      *B,
+                      double            *C,
+                      const bool         add = false);
+
+    /**
+     * Complete a symmetric matrix of n x n blocks, of which those on and above
+     * the diagonal are there.
+     */
+    template <int n_components>
+    void
+    complete_symmetric(const unsigned int n, double *C);
 
     /**
      * Compute $C = A B^T$, the products of few rows with many: the gradients of
      * the components of a field at all points.
      *
-     * @param n_inner length of all rows, which are @p ld apart; up to the next
-     *   multiple of #padding, they are zero
+     * @param n_inner length of all rows, which are @p ld apart, and padded()
+     *   with zeros
      * @param n_rows, @p A the few rows
      * @param n_columns, @p B the many rows
      * @param C <tt>C[i*ldc+j]</tt> is the product of row $i$ of @p A and row $j$
@@ -99,12 +99,12 @@ namespace EBSMPM
      * symmetric $c_{ijkl}=c_{klij}$.
      *
      * @param n_points number of points $p$; there are n_rows rows for each
-     * @param n length of a row of @p G, at least #max_n_short_lanes
+     * @param n number of functions $J$
      * @param c <tt>c[((b*n_rows+j)*n_rows+l)*ldc+p]</tt> is $c_{ijkl}(p)$ for the
      *   pair $i\le k$ with number $b$ in lexicographic order; these arrays are
      *   read up to the next multiple of #max_n_short_lanes points
-     * @param G, @p B row by row, rows being @p ldg and @p ldb apart; columns
-     *   $(Jik)$ of @p B are in lexicographic order, and padding is not written
+     * @param G row by row, rows being @p ldg apart and padded() with zeros
+     * @param B row by row, each a BlockRow of @p n blocks
      */
     template <int dim, int n_rows>
     void
@@ -114,8 +114,7 @@ namespace EBSMPM
                  const unsigned int ldc,
                  const double      *G,
                  const unsigned int ldg,
-                 double            *B,
-                 const unsigned int ldb);
+                 double            *B);
   } // namespace DenseKernels
 } // namespace EBSMPM
 

@@ -10,7 +10,9 @@
 #ifndef ebsmpm_assembly_extension_product_h
 #define ebsmpm_assembly_extension_product_h
 
-#include <ebsmpm/base/config.h>
+#include <ebsmpm/base/block_row.h>
+
+#include <deal.II/base/aligned_vector.h>
 
 #include <vector>
 
@@ -26,16 +28,16 @@ namespace EBSMPM
    * first $E^T K$ row by row, and then that times $E$ block by block.
    *
    * @code
-   * ExtensionProduct<block_size> product;
+   * ExtensionProduct<n_components> product;
    * product.initialize(n_functions, max_n_unknown_functions);
-   * const double *R = product.compute(E, m, K, ldk);
+   * const double *R = product.compute(E, m, K);
    * @endcode
    *
    * Memory is allocated by initialize() only.
    *
-   * @tparam block_size number of entries of a block: 1, 4 or 9
+   * @tparam n_components number of rows and columns of a block, one to three
    */
-  template <unsigned int block_size>
+  template <unsigned int n_components>
   class ExtensionProduct
   {
   public:
@@ -54,20 +56,13 @@ namespace EBSMPM
      *
      * @param E the matrix, row by row
      * @param m its number of columns
-     * @param K the whole matrix: block $(I,J)$ begins at
-     *   <tt>K[I*ldk+J*block_size]</tt>
-     * @param ldk distance between two rows, at least that of
-     *   DenseKernels::padded()
+     * @param K the whole matrix, whose rows are each a BlockRow
      *
-     * Return an array in which block $(i,j)$ begins at
-     * <tt>(i*m+j)*block_size</tt>, for $i\le j$. What else there is in it does
-     * not matter. It is valid until the next call.
+     * Return a matrix whose rows are each a BlockRow of @p m blocks. Those
+     * before the diagonal do not matter. It is valid until the next call.
      */
     const double *
-    compute(const double      *E,
-            const unsigned int m,
-            const double      *K,
-            const unsigned int ldk);
+    compute(const double *E, const unsigned int m, const double *K);
 
   private:
     /** An entry of a column of E. */
@@ -81,13 +76,14 @@ namespace EBSMPM
     struct Multiply;
     friend struct Multiply;
 
-    unsigned int n           = 0;
-    unsigned int half_stride = 0;
+    using Row = BlockRow<n_components>;
+
+    unsigned int n = 0;
 
     std::vector<Entry>        entries;
     std::vector<unsigned int> column_ends;
-    std::vector<double>       half;
-    std::vector<double>       result;
+    AlignedVector<double>     half;
+    AlignedVector<double>     result;
   };
 } // namespace EBSMPM
 

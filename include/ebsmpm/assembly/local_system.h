@@ -10,6 +10,8 @@
 #ifndef ebsmpm_assembly_local_system_h
 #define ebsmpm_assembly_local_system_h
 
+#include <ebsmpm/base/block_row.h>
+
 #include <ebsmpm/lac/system_matrix.h>
 #include <ebsmpm/lac/types.h>
 
@@ -148,7 +150,7 @@ namespace EBSMPM
     double *
     residual();
 
-    /** Distance between two rows of these, see DenseKernels::padded(). */
+    /** Distance between two rows of these, see padded(). */
     unsigned int
     row_stride() const;
 
@@ -161,13 +163,20 @@ namespace EBSMPM
     value(const double *B) const;
 
     /**
-     * The tangent, row by row: <tt>tangent()[I*tangent_stride() + (J*dim+a)*dim
-     * + b]</tt> couples component $a$ of function $I$ with component $b$ of
+     * The tangent, row by row, each a BlockRow<dim>: block $J$ of row $I$ has
+     * the numbers that couple components of function $I$ with those of
      * function $J$, for $I\le J$. The rest follows by symmetry, and what is
      * written there does not matter.
      */
     double *
     tangent();
+
+    /** The number that couples two components of functions $I\le J$. */
+    double &
+    tangent(const unsigned int I,
+            const unsigned int a,
+            const unsigned int J,
+            const unsigned int b);
 
     /**
      * Begin to write the tangent. Return whether there is something in it, to
@@ -176,10 +185,6 @@ namespace EBSMPM
      */
     bool
     begin_tangent();
-
-    /** Distance between two rows of the tangent. */
-    unsigned int
-    tangent_stride() const;
 
     /** Resolve the constraints, and add the residual to a vector. */
     void
@@ -209,15 +214,15 @@ namespace EBSMPM
     /** One over the edge lengths of the cell. */
     Tensor<1, dim> inverse_h;
 
-    /** Distance between rows of a number, or of a block, per function. */
-    unsigned int short_stride = 0, stride = 0;
+    /** Distance between rows of a number per function. */
+    unsigned int short_stride = 0;
 
     /** For the kernels, these are at the beginning of a cache line. */
-    AlignedVector<double>       coefficient_rows;
-    AlignedVector<double>       residual_rows;
-    AlignedVector<double>       tangent_rows;
-    bool                        tangent_begun = false;
-    ExtensionProduct<dim * dim> extension_product;
+    AlignedVector<double> coefficient_rows;
+    AlignedVector<double> residual_rows;
+    AlignedVector<double> tangent_rows;
+    bool                  tangent_begun = false;
+    ExtensionProduct<dim> extension_product;
   };
 
 
@@ -330,19 +335,23 @@ namespace EBSMPM
 
 
   template <int dim>
-  inline bool
-  LocalSystem<dim>::begin_tangent()
+  inline double &
+  LocalSystem<dim>::tangent(const unsigned int I,
+                            const unsigned int a,
+                            const unsigned int J,
+                            const unsigned int b)
   {
-    return std::exchange(tangent_begun, true);
+    return tangent_rows[I * BlockRow<dim>::length(n) +
+                        BlockRow<dim>::place(n, J, a, b)];
   }
 
 
 
   template <int dim>
-  inline unsigned int
-  LocalSystem<dim>::tangent_stride() const
+  inline bool
+  LocalSystem<dim>::begin_tangent()
   {
-    return stride;
+    return std::exchange(tangent_begun, true);
   }
 
 #endif

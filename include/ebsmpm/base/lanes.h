@@ -110,6 +110,7 @@ namespace EBSMPM
   /** How EBSMPM_SHUFFLE tells GCC which numbers. */
   typedef long long LaneNumbers2 __attribute__((vector_size(16)));
   typedef long long LaneNumbers4 __attribute__((vector_size(32)));
+  typedef long long LaneNumbers8 __attribute__((vector_size(64)));
 
   template <>
   EBSMPM_IN_EACH_TARGET auto
@@ -171,29 +172,17 @@ namespace EBSMPM
 
 
 
-  /** Copy a matrix of n x n numbers, row by row, to its transpose. */
-  template <unsigned int n, unsigned int n_bytes>
-  EBSMPM_IN_EACH_TARGET void
-  transpose_block(const double *from, double *to)
+  /** The largest number of lanes, and of doubles in a cache line. */
+  constexpr unsigned int max_n_lanes = 8;
+
+  /**
+   * Return @p n rounded up to a multiple of #max_n_lanes: the length of a row
+   * that vectors fill.
+   */
+  inline constexpr unsigned int
+  padded(const unsigned int n)
   {
-    if constexpr (n_bytes >= 32 && (n == 2 || n == 3))
-      {
-        using L             = Lanes<32>;
-        const L::type lower = L::load(from);
-        if constexpr (n == 2)
-          L::store(EBSMPM_SHUFFLE(4, lower, lower, 0, 2, 1, 3), to);
-        else
-          {
-            const L::type upper = L::load(from + 4);
-            L::store(EBSMPM_SHUFFLE(4, lower, upper, 0, 3, 6, 1), to);
-            L::store(EBSMPM_SHUFFLE(4, lower, upper, 4, 7, 2, 5), to + 4);
-            to[8] = from[8];
-          }
-      }
-    else
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int k = 0; k < n; ++k)
-          to[i * n + k] = from[k * n + i];
+    return (n + max_n_lanes - 1) / max_n_lanes * max_n_lanes;
   }
 
 

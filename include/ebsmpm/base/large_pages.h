@@ -12,8 +12,9 @@
 
 #include <ebsmpm/base/config.h>
 
+#include <deal.II/base/aligned_vector.h>
+
 #include <cstddef>
-#include <vector>
 
 namespace EBSMPM
 {
@@ -27,7 +28,7 @@ namespace EBSMPM
    * on it.
    */
   void
-  resize_in_large_pages(std::vector<double> &array, const std::size_t size);
+  resize_in_large_pages(AlignedVector<double> &array, const std::size_t size);
 
   /**
    * Ask the operating system to move what is in @p size numbers from @p begin

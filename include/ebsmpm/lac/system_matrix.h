@@ -12,6 +12,7 @@
 
 #include <ebsmpm/lac/types.h>
 
+#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
@@ -48,7 +49,7 @@ namespace EBSMPM
    * matrix.reinit(functions, n_components, lists);
    * matrix.begin();
    * for (l = 0; l < n_lists; ++l)
-   *   matrix.add(l, local_matrix, stride);
+   *   matrix.add(l, local_matrix);
    * matrix.compress();
    * @endcode
    */
@@ -91,15 +92,12 @@ namespace EBSMPM
      * once; those that are left out add nothing. Nothing is allocated.
      *
      * @param list number of the list of functions that it couples
-     * @param values <tt>values[i*stride + (j*n_components+a)*n_components +
-     *   b]</tt> couples component $a$ of function $i$ of the list with
-     *   component $b$ of its function $j$, for $i\le j$; the rest is not read
-     * @param stride distance between two rows
+     * @param values the local matrix, row by row, each a
+     *   <tt>BlockRow<n_components></tt> of as many blocks as the list has
+     *   functions; those before the diagonal are not read
      */
     void
-    add(const unsigned int list,
-        const double      *values,
-        const unsigned int stride);
+    add(const unsigned int list, const double *values);
 
     /**
      * Write the rows that are still open, and send contributions to rows of
@@ -242,10 +240,12 @@ namespace EBSMPM
     open_row(const unsigned int function);
 
     /** Add the row of a function to the open ones. */
+    template <unsigned int n_components>
     void
     begin_row(const unsigned int function);
 
     /** Write the row of a function to where it belongs, and to its mirrors. */
+    template <unsigned int n_components>
     void
     close_row(const unsigned int function);
 
@@ -253,6 +253,7 @@ namespace EBSMPM
      * Ask the memory for what a list is added to, and what the rows that it
      * closes are mirrored to.
      */
+    template <unsigned int n_components>
     void
     fetch_rows(const unsigned int list);
 
@@ -261,9 +262,7 @@ namespace EBSMPM
      * rows that begin and end with this list.
      */
     void
-    add_list(const unsigned int list,
-             const double      *values,
-             const unsigned int stride);
+    add_list(const unsigned int list, const double *values);
 
     /** Whether little of the matrix is in a cache when it is needed. */
     bool
@@ -327,10 +326,14 @@ namespace EBSMPM
     std::vector<unsigned int> closing_numbers;
     std::vector<unsigned int> slots;
 
-    /** The open rows, how long one is at most, and the list that is next. */
-    std::vector<double> open_rows;
-    std::size_t         slot_size = 0;
-    unsigned int        next_list = 0;
+    /**
+     * The open rows, each a BlockRow; how long one is at most, where the tails
+     * begin, and the list that is next.
+     */
+    AlignedVector<double> open_rows;
+    std::size_t           slot_size  = 0;
+    std::size_t           open_tails = 0;
+    unsigned int          next_list  = 0;
 
     /** See begin(), and the rows that these need. */
     const std::vector<bool> *wanted = nullptr;
