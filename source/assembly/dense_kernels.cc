@@ -111,7 +111,11 @@ namespace EBSMPM
 
 
 
-      /** See DenseKernels::transposed_product(). */
+      /**
+       * See DenseKernels::transposed_product() and symmetric_product(). If
+       * there is a block size, columns of C are blocks of this size, one per
+       * row, and those before the block of the row itself are not wanted.
+       */
       struct TransposedProduct
       {
         template <unsigned int n_bytes>
@@ -123,53 +127,13 @@ namespace EBSMPM
             const unsigned int lda,
             const double      *B,
             double            *C,
-            const bool         add)
+            const unsigned int ld,
+            const bool         add,
+            const unsigned int block_size)
         {
           const TransposedProductTiles<n_bytes> product = {
-            n_inner, n_rows, n_columns, A, lda, B, C, n_columns, add, 0};
+            n_inner, n_rows, n_columns, A, lda, B, C, ld, add, block_size};
           product.panels();
-        }
-      };
-
-
-
-      /** See DenseKernels::symmetric_product(). */
-      template <int n_components>
-      struct SymmetricProduct
-      {
-        template <unsigned int n_bytes>
-        static EBSMPM_IN_EACH_TARGET void
-        run(const unsigned int n_inner,
-            const unsigned int n,
-            const double      *A,
-            const unsigned int lda,
-            const double      *B,
-            double            *C,
-            const bool         add)
-        {
-          using Row                = BlockRow<n_components>;
-          const unsigned int tails = Row::tails(n);
-          const unsigned int ld    = Row::length(n);
-          if constexpr (Row::head_size > 0)
-            {
-              const TransposedProductTiles<n_bytes> product = {
-                n_inner, n, tails, A, lda, B, C, ld, add, Row::head_size};
-              product.panels();
-            }
-          if constexpr (Row::has_tails)
-            {
-              const TransposedProductTiles<n_bytes> product = {n_inner,
-                                                               n,
-                                                               padded(n),
-                                                               A,
-                                                               lda,
-                                                               B + tails,
-                                                               C + tails,
-                                                               ld,
-                                                               add,
-                                                               1};
-              product.panels();
-            }
         }
       };
 
@@ -404,7 +368,7 @@ namespace EBSMPM
     {
       AssertDimension(n_columns, padded(n_columns));
       run_best<TransposedProduct>(
-        n_inner, n_rows, n_columns, A, lda, B, C, add);
+        n_inner, n_rows, n_columns, A, lda, B, C, n_columns, add, 0U);
     }
 
 
@@ -419,7 +383,26 @@ namespace EBSMPM
                       double            *C,
                       const bool         add)
     {
-      run_best<SymmetricProduct<n_components>>(n_inner, n, A, lda, B, C, add);
+      using Row = BlockRow<n_components>;
+
+      const auto product = [&](const unsigned int begin,
+                               const unsigned int end,
+                               const unsigned int block_size) {
+        run_best<TransposedProduct>(n_inner,
+                                    n,
+                                    end - begin,
+                                    A,
+                                    lda,
+                                    B + begin,
+                                    C + begin,
+                                    Row::length(n),
+                                    add,
+                                    block_size);
+      };
+      if constexpr (Row::head_size > 0)
+        product(0, Row::tails(n), Row::head_size);
+      if constexpr (Row::has_tails)
+        product(Row::tails(n), Row::length(n), 1);
     }
 
 
