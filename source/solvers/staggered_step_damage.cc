@@ -28,19 +28,21 @@ namespace EBSMPM
 
       /** Change of the damage in a pass up to which the relaxation may grow. */
       double largest_change;
+
+      /** Factor by which the relaxation may grow from pass to pass. */
+      double largest_growth;
     };
 
     /**
      * What is overshot cannot be taken back, because damage does not heal. Only
      * in steps that take many passes, where the crack runs through the body
-     * without stopping, there is less to lose.
+     * without stopping, there is less to lose: each time that it has advanced,
+     * the relaxation begins with one again, and most passes would be spent on
+     * getting back to where it helps.
      */
-    constexpr Caution      at_first      = {0.9, 0.15};
-    constexpr Caution      in_long_steps = {0.5, 0.5};
-    constexpr unsigned int many_passes   = 20;
-
-    /** Factor by which the relaxation may grow from pass to pass. */
-    constexpr double largest_growth = 3.;
+    constexpr Caution      at_first      = {0.9, 0.15, 3.};
+    constexpr Caution      in_long_steps = {0.5, 0.5, 9.};
+    constexpr unsigned int many_passes   = 12;
   } // namespace
 
 
@@ -113,7 +115,8 @@ namespace EBSMPM
     // A single mode is left, of which the last step has left this part. If
     // nothing, or more than before, go as far as is safe.
     const double ratio = product / (last_norm * last_norm);
-    double result = std::min(data.max_relaxation, largest_growth * relaxation);
+    double       result =
+      std::min(data.max_relaxation, caution.largest_growth * relaxation);
     if (ratio < 1.)
       result = std::min(result, relaxation / (1. - ratio));
     return std::max(1.,

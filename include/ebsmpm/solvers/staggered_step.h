@@ -72,8 +72,9 @@ namespace EBSMPM
    * used as long as $\mathbf s_k$ and $\mathbf s_{k-1}$ enclose an angle of
    * less than 26 degrees, otherwise $\omega_k=1$; it grows by no more than a
    * factor of three, up to AdditionalData::max_relaxation, and not so far that
-   * the damage changes by more than 0.15 at once. After twenty passes, in steps
-   * in which the crack runs through the body, these are 60 degrees and 0.5.
+   * the damage changes by more than 0.15 at once. After twelve passes, in steps
+   * in which the crack runs through the body, these are 60 degrees, nine, and
+   * 0.5.
    *
    * The points are not touched before accept(). A step that fails, which
    * solve() reports by an exception of type ExcSolverFailure, therefore leaves
